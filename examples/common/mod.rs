@@ -1,0 +1,270 @@
+//! What keeps windows, cameras and pictures out of the examples: an app that runs in a window, or headless.
+
+use std::time::{Duration, Instant};
+
+use bevy::camera::RenderTarget;
+use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraPlugin};
+use bevy::image::{ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
+use bevy::prelude::*;
+use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
+use bevy_verdure::lab::{CommonArgs, FrameStats, Headless, adapter_name, median, wait_for_gpu};
+use bevy_verdure::prelude::*;
+
+/// Frames that are drawn before any is kept: assets load, textures reach the GPU.
+const WARM_UP: usize = 3;
+/// Time between two headless frames.
+const STEP: Duration = Duration::from_millis(40);
+
+/// Marks the camera that the user moves.
+#[derive(Component)]
+pub struct MainCamera;
+
+/// What the eye circles while it orbits.
+#[derive(Resource, Clone, Copy)]
+pub struct Orbit {
+    /// Centre, in metres.
+    pub centre: Vec3,
+    /// Turns a minute; 0 while the user flies.
+    pub speed: f32,
+}
+
+/// Runs an example in a window, or without one, as its arguments say.
+pub fn run(title: &str, args: &CommonArgs, configure: impl FnOnce(&mut App)) -> Result<(), String> {
+    if args.headless {
+        return run_headless(title, args, configure);
+    }
+    let mut app = App::new();
+    app.add_plugins(DefaultPlugins.set(WindowPlugin {
+        primary_window: Some(Window {
+            title: title.into(),
+            resolution: args.size.into(),
+            ..default()
+        }),
+        ..default()
+    }))
+    .add_plugins((VerdurePlugin, FreeCameraPlugin))
+    .add_systems(Startup, overlay)
+    .add_systems(Update, (orbit, write_overlay, let_fly));
+    configure(&mut app);
+    app.run();
+    Ok(())
+}
+
+fn run_headless(
+    title: &str,
+    args: &CommonArgs,
+    configure: impl FnOnce(&mut App),
+) -> Result<(), String> {
+    let out = &args.out;
+    std::fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
+    let mut headless = Headless::new(STEP, |app| {
+        app.add_plugins((VerdurePlugin, FreeCameraPlugin))
+            .add_systems(Update, orbit);
+        configure(app);
+    });
+    headless.step();
+    let target = headless.target(args.size, TextureFormat::Rgba8UnormSrgb);
+    let world = headless.world();
+    let mut cameras = world.query_filtered::<Entity, With<MainCamera>>();
+    let camera = cameras.single(world).map_err(|error| error.to_string())?;
+    world.entity_mut(camera).insert(target.clone());
+    for _ in 0..WARM_UP {
+        headless.step();
+    }
+    if let Some(file) = &args.stats {
+        let stats = measure(&mut headless, args, &target);
+        stats.save(file)?;
+        println!("{}", file.display());
+    }
+    for frame in 0..args.frames {
+        let picture = headless.capture(&target);
+        let file = out.join(format!("{title}_{frame:03}.png"));
+        picture.save_png(&file)?;
+    }
+    println!("{} pictures in {}/{title}_*.png", args.frames, out.display());
+    Ok(())
+}
+
+/// Times frames with and without plants, in turns.
+fn measure(headless: &mut Headless, args: &CommonArgs, _: &RenderTarget) -> FrameStats {
+    let mut times = [Vec::new(), Vec::new()];
+    let mut cutting_planes = Vec::new();
+    let mut uploaded = Vec::new();
+    for _ in 0..args.frames.max(1) {
+        for (hidden, times) in times.iter_mut().enumerate() {
+            let world = headless.world();
+            let mut plants = world.query_filtered::<&mut Visibility, With<Skeleton3d>>();
+            for mut visibility in plants.iter_mut(world) {
+                *visibility = [Visibility::Inherited, Visibility::Hidden][hidden];
+            }
+            headless.step();
+            wait_for_gpu(headless.world());
+            let started = Instant::now();
+            headless.step();
+            wait_for_gpu(headless.world());
+            times.push(started.elapsed().as_secs_f64() * 1e3);
+        }
+        let stats = headless.world().resource::<FrustaStats>();
+        cutting_planes.push(stats.cutting_planes.as_secs_f64() * 1e3);
+        uploaded.push(stats.uploaded_bytes);
+    }
+    let world = headless.world();
+    let mut plants = world.query_filtered::<&mut Visibility, With<Skeleton3d>>();
+    for mut visibility in plants.iter_mut(world) {
+        *visibility = Visibility::Inherited;
+    }
+    headless.step();
+    let stats = *headless.world().resource::<FrustaStats>();
+    FrameStats {
+        adapter: adapter_name(headless.world()),
+        size: args.size.to_array(),
+        frames: args.frames.max(1),
+        plants: stats.plants,
+        segments: stats.segments,
+        median_frame_ms: median(&times[0]),
+        median_empty_frame_ms: median(&times[1]),
+        median_cutting_planes_ms: median(&cutting_planes),
+        uploaded_bytes_per_frame: median(&uploaded),
+    }
+}
+
+/// A camera that flies with WASD, E, Q and the mouse, and circles until it is first moved; O starts it again.
+pub fn camera(eye: Vec3, at: Vec3) -> impl Bundle {
+    (
+        MainCamera,
+        Camera3d::default(),
+        Transform::from_translation(eye).looking_at(at, Vec3::Y),
+        FreeCamera::default(),
+    )
+}
+
+fn orbit(
+    time: Res<Time>,
+    orbit: Option<Res<Orbit>>,
+    mut cameras: Query<&mut Transform, With<MainCamera>>,
+) {
+    let Some(orbit) = orbit else { return };
+    if orbit.speed == 0.0 {
+        return;
+    }
+    let turn = Quat::from_rotation_y(orbit.speed / 60.0 * core::f32::consts::TAU * time.delta_secs());
+    for mut camera in &mut cameras {
+        camera.rotate_around(orbit.centre, turn);
+    }
+}
+
+/// The user takes the camera over with any key of flight; O gives it back to the orbit.
+fn let_fly(
+    keys: Res<ButtonInput<KeyCode>>,
+    buttons: Res<ButtonInput<MouseButton>>,
+    orbit: Option<ResMut<Orbit>>,
+) {
+    use KeyCode::{KeyA, KeyD, KeyE, KeyO, KeyQ, KeyS, KeyW};
+    let Some(mut orbit) = orbit else { return };
+    if keys.any_just_pressed([KeyW, KeyA, KeyS, KeyD, KeyE, KeyQ])
+        || buttons.just_pressed(MouseButton::Left)
+    {
+        orbit.speed = 0.0;
+    }
+    if keys.just_pressed(KeyO) {
+        orbit.speed = if orbit.speed == 0.0 { 1.0 } else { 0.0 };
+    }
+}
+
+/// The overlay's text.
+#[derive(Component)]
+struct Overlay;
+
+fn overlay(mut commands: Commands) {
+    commands.spawn((
+        Overlay,
+        Text::default(),
+        TextFont::from_font_size(15.0),
+        Node {
+            position_type: PositionType::Absolute,
+            top: px(10),
+            left: px(12),
+            ..default()
+        },
+    ));
+}
+
+fn write_overlay(
+    time: Res<Time<Real>>,
+    stats: Res<FrustaStats>,
+    mut smooth: Local<f32>,
+    mut overlay: Query<&mut Text, With<Overlay>>,
+) {
+    *smooth += (time.delta_secs() * 1e3 - *smooth) * 0.05;
+    for mut text in &mut overlay {
+        text.0 = format!(
+            "{:.1} ms a frame\n{} plants, {} segments\n{:.0} µs on cutting planes, {} KiB uploaded\n\
+             O: orbit   WASD EQ, mouse: fly",
+            *smooth,
+            stats.plants,
+            stats.segments,
+            stats.cutting_planes.as_secs_f64() * 1e6,
+            stats.uploaded_bytes / 1024,
+        );
+    }
+}
+
+/// A texture that repeats, with all its mip levels, from a function of u and v in 0..1. `srgb` tells colours from
+/// other data; normals are renormalised by the shader.
+pub fn texture(size: u32, srgb: bool, texel: impl Fn(f32, f32) -> [f32; 4]) -> Image {
+    let mut level: Vec<[f32; 4]> = (0..size * size)
+        .map(|i| {
+            let (x, y) = (i % size, i / size);
+            texel((x as f32 + 0.5) / size as f32, (y as f32 + 0.5) / size as f32)
+        })
+        .collect();
+    let mut data = Vec::new();
+    let mut side = size as usize;
+    loop {
+        let encode = |pixel: &[f32; 4]| -> [u8; 4] {
+            let [r, g, b, a] = *pixel;
+            if srgb {
+                Srgba::from(LinearRgba::new(r, g, b, a)).to_u8_array()
+            } else {
+                [r, g, b, a].map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8)
+            }
+        };
+        data.extend(level.iter().flat_map(encode));
+        if side == 1 {
+            break;
+        }
+        let width = side;
+        let at = |x: usize, y: usize| level[y * width + x];
+        side /= 2;
+        let half = (0..side * side).map(|i| {
+            let (x, y) = (i % side * 2, i / side * 2);
+            core::array::from_fn(|c| {
+                0.25 * (at(x, y)[c] + at(x + 1, y)[c] + at(x, y + 1)[c] + at(x + 1, y + 1)[c])
+            })
+        });
+        level = half.collect();
+    }
+    let format = if srgb {
+        TextureFormat::Rgba8UnormSrgb
+    } else {
+        TextureFormat::Rgba8Unorm
+    };
+    let extent = Extent3d {
+        width: size,
+        height: size,
+        depth_or_array_layers: 1,
+    };
+    let mut image = Image::new_uninit(extent, TextureDimension::D2, format, default());
+    image.texture_descriptor.mip_level_count = size.ilog2() + 1;
+    image.data = Some(data);
+    image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
+        address_mode_u: ImageAddressMode::Repeat,
+        address_mode_v: ImageAddressMode::Repeat,
+        mag_filter: ImageFilterMode::Linear,
+        min_filter: ImageFilterMode::Linear,
+        mipmap_filter: ImageFilterMode::Linear,
+        anisotropy_clamp: 8,
+        ..default()
+    });
+    image
+}

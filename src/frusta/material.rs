@@ -1,0 +1,231 @@
+//! The material: Bevy's standard one, on a surface that is ray cast.
+
+use bevy::asset::{Asset, AssetPath};
+use bevy::ecs::system::lifetimeless::SRes;
+use bevy::ecs::system::SystemParamItem;
+use bevy::mesh::MeshVertexBufferLayoutRef;
+use bevy::pbr::{
+    ExtendedMaterial, MaterialExtension, MaterialExtensionKey, MaterialExtensionPipeline,
+    MeshPipelineKey, StandardMaterial,
+};
+use bevy::prelude::*;
+use bevy::render::render_resource::{
+    AsBindGroup, AsBindGroupError, BindGroupLayout, BindGroupLayoutEntry, BindingResources,
+    BindingType, BufferBindingType, Face, OwnedBindingResource, RenderPipelineDescriptor,
+    ShaderStages, SpecializedMeshPipelineError, UnpreparedBindGroup,
+};
+use bevy::render::renderer::RenderDevice;
+use bevy::shader::{ShaderDefVal, ShaderRef};
+
+use super::buffers::FrustaBuffers;
+use super::mesh::ATTRIBUTE_CORNER;
+
+/// The material of plants that are drawn by frusta: all of [`StandardMaterial`] that a surface with one pair of
+/// texture coordinates can have, on a ray-cast surface.
+///
+/// Base colour, emissive, metallic-roughness, normal and occlusion maps are sampled with gradients of the ray, so that
+/// the seam at u = 0 cannot be seen; other maps of [`StandardMaterial`], parallax and lightmaps are ignored.
+/// `alpha_mode` may be `Opaque` or `Mask`; all others are drawn opaque. `cull_mode` and `double_sided` have no
+/// meaning here.
+pub type FrustaMaterial = ExtendedMaterial<StandardMaterial, FrustaExtension>;
+
+/// Which of the paper's two normals (§2.4) a surface is shaded with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum ShadingNormals {
+    /// Interpolated between a segment's ends (Equation 8): continuous from segment to segment.
+    #[default]
+    Continuous,
+    /// The surface's own: every joint shows as a crease.
+    Geometric,
+}
+
+/// What the main pass writes: for looking into the geometry, and for measuring it.
+///
+/// All but `Shaded` need a camera that renders to an image of 32-bit floats (`Rgba32Float`), without MSAA.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum FrustaOutput {
+    /// The lit surface.
+    #[default]
+    Shaded,
+    /// Depth in metres along the view axis, index of the joint that ends the segment, u, v.
+    Geometry,
+    /// The shading normal in world space, and depth in metres along the view axis.
+    Normals,
+}
+
+/// What [`FrustaMaterial`] adds to [`StandardMaterial`].
+#[derive(Asset, Clone, Debug, Default, PartialEq, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq)]
+pub struct FrustaExtension {
+    /// The normals to shade with.
+    pub normals: ShadingNormals,
+    /// What the main pass writes.
+    pub output: FrustaOutput,
+}
+
+/// What tells the pipelines of one material from another's.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(C)]
+pub struct FrustaKey {
+    geometric_normals: u8,
+    output: u8,
+}
+
+/// Bindings of the extension; [`StandardMaterial`] uses those below.
+const FIRST_BINDING: u32 = 100;
+
+/// Whether a device can run the shaders: they read storage buffers in the vertex stage.
+pub(crate) fn is_supported(device: &RenderDevice) -> bool {
+    let limits = device.limits();
+    limits.max_storage_buffers_per_shader_stage >= STORAGE_BUFFERS
+        && limits.max_storage_buffer_binding_size as u64 >= 1 << 20
+}
+
+/// Storage buffers that a shader stage needs: the extension's three, and those of Bevy's views and meshes.
+pub(crate) const STORAGE_BUFFERS: u32 = 3 + 4;
+
+impl AsBindGroup for FrustaExtension {
+    type Data = FrustaKey;
+    type Param = SRes<FrustaBuffers>;
+
+    fn label() -> &'static str {
+        "frusta_material"
+    }
+
+    fn bind_group_data(&self) -> FrustaKey {
+        FrustaKey {
+            geometric_normals: (self.normals == ShadingNormals::Geometric) as u8,
+            output: self.output as u8,
+        }
+    }
+
+    fn unprepared_bind_group(
+        &self,
+        _: &BindGroupLayout,
+        device: &RenderDevice,
+        buffers: &mut SystemParamItem<'_, '_, Self::Param>,
+        _: bool,
+    ) -> Result<UnpreparedBindGroup, AsBindGroupError> {
+        let (true, Some(joints), Some(shapes), Some(plants)) = (
+            is_supported(device),
+            &buffers.joints,
+            &buffers.shapes,
+            &buffers.plants,
+        ) else {
+            return Err(AsBindGroupError::RetryNextUpdate);
+        };
+        let bindings = [joints, shapes, plants]
+            .into_iter()
+            .zip(FIRST_BINDING..)
+            .map(|(buffer, binding)| (binding, OwnedBindingResource::Buffer(buffer.clone())))
+            .collect();
+        Ok(UnpreparedBindGroup {
+            bindings: BindingResources(bindings),
+        })
+    }
+
+    fn bind_group_layout_entries(device: &RenderDevice, _: bool) -> Vec<BindGroupLayoutEntry> {
+        if !is_supported(device) {
+            return Vec::new();
+        }
+        let entry = |binding| BindGroupLayoutEntry {
+            binding,
+            visibility: ShaderStages::VERTEX_FRAGMENT,
+            ty: BindingType::Buffer {
+                ty: BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        };
+        (FIRST_BINDING..FIRST_BINDING + 3).map(entry).collect()
+    }
+}
+
+/// Path of a shader of this folder.
+fn shader(name: &str) -> ShaderRef {
+    ShaderRef::Path(AssetPath::parse(&format!("embedded://bevy_verdure/frusta/shaders/{name}")).into_owned())
+}
+
+impl MaterialExtension for FrustaExtension {
+    fn vertex_shader() -> ShaderRef {
+        shader("forward.wgsl")
+    }
+
+    fn fragment_shader() -> ShaderRef {
+        shader("forward.wgsl")
+    }
+
+    fn prepass_vertex_shader() -> ShaderRef {
+        shader("prepass.wgsl")
+    }
+
+    fn prepass_fragment_shader() -> ShaderRef {
+        shader("prepass.wgsl")
+    }
+
+    fn deferred_vertex_shader() -> ShaderRef {
+        shader("deferred.wgsl")
+    }
+
+    fn deferred_fragment_shader() -> ShaderRef {
+        shader("deferred.wgsl")
+    }
+
+    fn alpha_mode() -> Option<AlphaMode> {
+        // Rays miss: fragments are discarded in every pass.
+        Some(AlphaMode::Mask(0.5))
+    }
+
+    fn specialize(
+        _: &MaterialExtensionPipeline,
+        descriptor: &mut RenderPipelineDescriptor,
+        layout: &MeshVertexBufferLayoutRef,
+        key: MaterialExtensionKey<Self>,
+    ) -> Result<(), SpecializedMeshPipelineError> {
+        descriptor.vertex.buffers =
+            vec![layout.0.get_layout(&[ATTRIBUTE_CORNER.at_shader_location(0)])?];
+        // The far sides of the bounds are drawn, once a pixel, wherever the eye is.
+        let mirrored_view = key.mesh_key.contains(MeshPipelineKey::INVERT_CULLING);
+        descriptor.primitive.cull_mode = Some(if mirrored_view { Face::Back } else { Face::Front });
+        let mut defs = Vec::new();
+        let samples = descriptor.multisample.count;
+        defs.push(ShaderDefVal::UInt("FRUSTA_SAMPLES".into(), samples));
+        if samples > 1 {
+            defs.push("FRUSTA_MULTISAMPLED".into());
+        }
+        if key.bind_group_data.geometric_normals != 0 {
+            defs.push("FRUSTA_GEOMETRIC_NORMALS".into());
+        }
+        match key.bind_group_data.output {
+            1 => defs.push("FRUSTA_OUTPUT_GEOMETRY".into()),
+            2 => defs.push("FRUSTA_OUTPUT_NORMALS".into()),
+            _ => {}
+        }
+        if key.mesh_key.contains(MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO) {
+            defs.push("FRUSTA_UNCLIPPED_DEPTH".into());
+        }
+        if let Some(fragment) = &mut descriptor.fragment {
+            fragment.shader_defs.extend(defs.iter().cloned());
+        }
+        descriptor.vertex.shader_defs.extend(defs);
+        Ok(())
+    }
+}
+
+/// A [`FrustaMaterial`] of a [`StandardMaterial`], or of what becomes one: a colour, or an image.
+///
+/// ```
+/// # use bevy::prelude::*;
+/// # use bevy_verdure::prelude::*;
+/// let bark = frusta_material(Color::srgb(0.35, 0.25, 0.18));
+/// let glazed = frusta_material(StandardMaterial { perceptual_roughness: 0.1, ..default() });
+/// ```
+pub fn frusta_material(base: impl Into<StandardMaterial>) -> FrustaMaterial {
+    FrustaMaterial {
+        base: base.into(),
+        extension: FrustaExtension::default(),
+    }
+}

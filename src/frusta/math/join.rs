@@ -1,0 +1,305 @@
+//! Joins: how the frusta of a limb meet (§2.2, made exact).
+//!
+//! A joint's radius ρ is that of a sphere which the cones of all its segments touch. Two cones that touch one
+//! sphere meet in plane curves; with X measured from the joint the cutting plane is
+//!
+//! ```text
+//! (M1/c1 + M2/c2) · X = ρ (s1/c1 + s2/c2)
+//! ```
+//!
+//! The first cone keeps the side ≤, the second ≥. In terms of slopes, k = −s/c, the right side is −ρ (k1 + k2).
+//! Where such a mitre would reach past its segment, or the plane no longer cuts an ellipse, the join is round:
+//! both cones end on the circles where they touch the sphere, and the sphere fills the gap.
+
+use super::cone::{Cone, End, EndKind, Frustum, WHOLE, touches_both};
+use super::paper;
+use super::scalar::{Real, Vec3};
+
+/// How the frusta of a limb meet at a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum JoinKind {
+    /// A plane through the curve in which both cones meet, exact for any bend and taper, with a fall back to
+    /// `Round` where the mitre would reach past a segment.
+    #[default]
+    Mitre,
+    /// The joint's sphere. Watertight for every bend up to and including a fold.
+    Round,
+    /// The paper's construction (Equations 3 to 5): planes through the major axes. For comparison.
+    Paper,
+    /// The paper's construction with its iteration on the base radius r1. For comparison.
+    PaperIterated,
+}
+
+/// No joint.
+pub const NONE: u32 = u32::MAX;
+
+/// Where a segment hangs in its skeleton. A segment has the index of the joint that ends it; parents stand
+/// before their children.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Link {
+    /// The joint that the segment starts from, or [`NONE`] for a root joint, which ends no segment.
+    pub parent: u32,
+    /// The joint whose segment continues this one's limb, or [`NONE`] at a free end.
+    pub next: u32,
+    /// True when this segment continues its parent's limb (or begins a root's); false when it branches off.
+    pub continues: bool,
+    /// Twist of the texture along the segment, θ in §2.3, in radians.
+    pub twist: Real,
+}
+
+/// A joint of a skeleton in the pose that is to be drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PosedJoint {
+    /// Position in the plant's local space, in metres.
+    pub position: Vec3,
+    /// Radius of the joint's sphere, in metres.
+    pub radius: Real,
+}
+
+/// How a whole skeleton is skinned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Skin {
+    /// How frusta meet.
+    pub join: JoinKind,
+    /// How free ends are closed: `Round` or `Flat`.
+    pub ends: EndKind,
+}
+
+/// A cutting plane, normal·X = offset with X measured from the joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CuttingPlane {
+    /// Unit normal, pointing along the limb.
+    pub normal: Vec3,
+    /// Signed distance from the joint, in metres.
+    pub offset: Real,
+}
+
+/// Below this share of its greatest length the sum of both axes is taken for a fold, which has no mitre.
+const FOLD: Real = 1e-4;
+/// How far a plane's tilt stays from one that cuts a parabola: cosine of the tilt above |s|.
+const ELLIPSE: Real = 1e-4;
+/// Share of a segment that must be left between its two ends.
+const SPACING: Real = 1e-4;
+
+/// The plane in which two cones meet that touch a sphere of `radius` about the joint, or `None` at a fold.
+#[inline]
+pub fn mitre_plane(first: &Cone, second: &Cone, radius: Real) -> Option<CuttingPlane> {
+    // 1/c from k = −s/c: 1/c² = 1 + k².
+    let w1 = (1.0 + first.slope * first.slope).sqrt();
+    let w2 = (1.0 + second.slope * second.slope).sqrt();
+    let normal = first.axis * w1 + second.axis * w2;
+    let length = normal.length();
+    if length <= FOLD * (w1 + w2) {
+        return None;
+    }
+    Some(CuttingPlane {
+        normal: normal / length,
+        offset: -radius * (first.slope + second.slope) / length,
+    })
+}
+
+/// Least and greatest axial distance, from the joint, of the ellipse that `plane` cuts from a cone of radius
+/// `radius` at the joint; `None` if the curve is no ellipse.
+#[inline]
+pub fn cut_extent(
+    axis: Vec3,
+    radius: Real,
+    slope: Real,
+    plane: &CuttingPlane,
+) -> Option<(Real, Real)> {
+    let m = plane.normal.dot(axis);
+    // The cross product, not √(1 − m²): it keeps its digits where the limb runs straight.
+    let q = plane.normal.cross(axis).length();
+    // Tilt and opening leave an ellipse while m > |s|, that is m/q > |k|.
+    let sine = slope.abs() / (1.0 + slope * slope).sqrt();
+    if m <= sine + ELLIPSE {
+        return None;
+    }
+    let y1 = (plane.offset - radius * q) / (m + slope * q);
+    let y2 = (plane.offset + radius * q) / (m - slope * q);
+    Some((y1.min(y2), y1.max(y2)))
+}
+
+/// Recomputes the frusta of a posed skeleton: cones, cutting planes and ends, but not their references
+/// ([`align`](super::surface::align) does). The slices have one entry a joint; the entry of a root joint, which ends no segment,
+/// draws nothing. Allocates nothing.
+///
+/// # Panics
+/// If the slices differ in length or a link names a joint outside them.
+pub fn skin(links: &[Link], joints: &[PosedJoint], skin: Skin, frusta: &mut [Frustum]) {
+    assert!(links.len() == joints.len() && joints.len() == frusta.len());
+    for i in 0..links.len() {
+        frusta[i] = round_frustum(i, links, joints, skin);
+    }
+    match skin.join {
+        JoinKind::Round => {}
+        JoinKind::Mitre => {
+            for (first, second) in joins(links) {
+                mitre(first, second, joints[first].radius, frusta);
+            }
+            // A mitre stays where both its segments have room for it. `reach` is left as it is when a join is
+            // made round, so that every join is judged by the same figures, whatever the order.
+            for (first, second) in joins(links) {
+                if frusta[first].end.kind == EndKind::Cut
+                    && !(has_room(&frusta[first]) && has_room(&frusta[second]))
+                {
+                    make_round(first, second, frusta);
+                }
+            }
+        }
+        JoinKind::Paper | JoinKind::PaperIterated => {
+            let iterate = skin.join == JoinKind::PaperIterated;
+            for (first, second) in joins(links) {
+                paper::join(first, second, joints, iterate, frusta);
+            }
+        }
+    }
+}
+
+/// The joins of a skeleton: pairs of a segment and the one that continues its limb.
+fn joins(links: &[Link]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    links.iter().enumerate().filter_map(|(i, link)| {
+        let first = link.parent as usize;
+        (link.continues && link.parent != NONE && links[first].parent != NONE).then_some((first, i))
+    })
+}
+
+/// The frustum of segment `i` as if every join were round.
+#[inline]
+fn round_frustum(i: usize, links: &[Link], joints: &[PosedJoint], skin: Skin) -> Frustum {
+    let link = links[i];
+    if link.parent == NONE {
+        return Frustum {
+            base: joints[i].position,
+            radius: -1.0,
+            axis: Vec3::Y,
+            ..Frustum::default()
+        };
+    }
+    let (from, to) = (joints[link.parent as usize], joints[i]);
+    let begins_root = link.continues && links[link.parent as usize].parent == NONE;
+    // A branch starts on its parent's axis with its own radius and runs out through the surface. Its start
+    // lies inside the joint's sphere, so it needs no cap.
+    let radius_from = if link.continues {
+        from.radius
+    } else {
+        to.radius.min(from.radius)
+    };
+    let across = to.position - from.position;
+    let length = across.length();
+    let paper = matches!(skin.join, JoinKind::Paper | JoinKind::PaperIterated);
+    let mut frustum = Frustum {
+        base: from.position,
+        length,
+        ..Frustum::default()
+    };
+    frustum.start.radius = radius_from;
+    frustum.end.radius = to.radius;
+    if paper && length > 0.0 {
+        frustum.axis = across / length;
+        frustum.radius = radius_from;
+        frustum.slope = (to.radius - radius_from) / length;
+        paper::set_ends(&mut frustum);
+    } else if touches_both(length, radius_from, to.radius) {
+        let cone = Cone::touching(across / length, length, radius_from, to.radius);
+        frustum.axis = cone.axis;
+        frustum.radius = cone.radius;
+        frustum.slope = cone.slope;
+        set_contact(&mut frustum.start, cone.axis, cone.sine(), 1.0);
+        set_contact(&mut frustum.end, cone.axis, cone.sine(), -1.0);
+    } else {
+        return lone_sphere(frustum, across, begins_root);
+    }
+    if begins_root {
+        close(&mut frustum.start, skin.ends);
+    }
+    if link.next == NONE {
+        close(&mut frustum.end, skin.ends);
+    } else {
+        frustum.end.kind = EndKind::Round;
+    }
+    frustum
+}
+
+/// Puts an end's plane through the circle where the cone touches the joint's sphere.
+#[inline]
+fn set_contact(end: &mut End, axis: Vec3, sine: Real, inward: Real) {
+    end.normal = axis;
+    end.offset = end.radius * sine;
+    end.reach = (end.offset * inward).max(0.0);
+}
+
+/// Closes a free end.
+#[inline]
+fn close(end: &mut End, kind: EndKind) {
+    end.kind = kind;
+    if kind == EndKind::Flat {
+        end.offset = 0.0;
+        end.reach = 0.0;
+    }
+}
+
+/// A segment of which one sphere contains the other is the larger sphere. Where that is the sphere at its
+/// base it belongs to the segment that ends there, unless none does.
+fn lone_sphere(mut frustum: Frustum, across: Vec3, begins_root: bool) -> Frustum {
+    frustum.radius = -1.0;
+    frustum.slope = 0.0;
+    frustum.axis = across.try_normalize().unwrap_or(Vec3::Y);
+    frustum.start.normal = frustum.axis;
+    frustum.end.normal = frustum.axis;
+    if frustum.end.radius >= frustum.start.radius {
+        frustum.end.kind = EndKind::Round;
+        frustum.end.offset = -WHOLE;
+    } else if begins_root {
+        frustum.start.kind = EndKind::Round;
+        frustum.start.offset = WHOLE;
+    }
+    frustum
+}
+
+/// Cuts two frusta along the plane in which they meet, if there is one.
+#[inline]
+fn mitre(first: usize, second: usize, radius: Real, frusta: &mut [Frustum]) {
+    let (f1, f2) = (frusta[first], frusta[second]);
+    if !(f1.has_cone() && f2.has_cone()) {
+        return;
+    }
+    let Some(plane) = mitre_plane(&f1.cone(), &f2.cone(), radius) else {
+        return;
+    };
+    let at_joint = f1.cone().radius_at(f1.length);
+    let Some((nearest, _)) = cut_extent(f1.axis, at_joint, f1.slope, &plane) else {
+        return;
+    };
+    let Some((_, farthest)) = cut_extent(f2.axis, f2.radius, f2.slope, &plane) else {
+        return;
+    };
+    set_cut(&mut frusta[first].end, &plane, -nearest);
+    set_cut(&mut frusta[second].start, &plane, farthest);
+}
+
+/// Opens an end at a cutting plane.
+#[inline]
+fn set_cut(end: &mut End, plane: &CuttingPlane, reach: Real) {
+    end.normal = plane.normal;
+    end.offset = plane.offset;
+    end.reach = end.reach.max(reach);
+    end.kind = EndKind::Cut;
+}
+
+/// True if neither end's cut reaches past the other's.
+#[inline]
+fn has_room(frustum: &Frustum) -> bool {
+    frustum.start.reach + frustum.end.reach <= frustum.length * (1.0 - SPACING)
+}
+
+/// Ends two frusta on their contact circles; the joint's sphere belongs to the first.
+fn make_round(first: usize, second: usize, frusta: &mut [Frustum]) {
+    let f1 = &mut frusta[first];
+    f1.end.normal = f1.axis;
+    f1.end.offset = f1.end.radius * f1.cone().sine();
+    f1.end.kind = EndKind::Round;
+    let f2 = &mut frusta[second];
+    f2.start.normal = f2.axis;
+    f2.start.offset = f2.start.radius * f2.cone().sine();
+}

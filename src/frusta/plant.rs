@@ -1,0 +1,109 @@
+//! What the frusta keep of a plant that is drawn.
+
+use std::sync::Arc;
+
+use bevy::camera::primitives::Aabb;
+use bevy::ecs::component::Component;
+use bevy::math::Vec3;
+
+use super::component::Frusta;
+use super::extent::aabb;
+use super::links::LinkedSkeleton;
+use super::records::JointRecord;
+use super::share::SkeletonKey;
+use super::single::cone::Frustum;
+use super::single::join::{PosedJoint, skin};
+use super::single::surface::align;
+use super::table::Rows;
+use crate::skeleton::PosedJoints;
+
+/// A plant that is drawn by frusta.
+#[derive(Component)]
+pub(crate) struct FrustaPlant {
+    pub skeleton: SkeletonKey,
+    pub settings: Frusta,
+    pub linked: Arc<LinkedSkeleton>,
+    /// The plant's row, which its `MeshTag` names.
+    pub slot: Rows,
+    pub joints: Rows,
+    /// The plant's own pose; `None` while it stands as its skeleton does and shares its joints.
+    pub own: Option<OwnPose>,
+}
+
+/// The frusta of one pose. Buffers are kept from frame to frame.
+pub(crate) struct OwnPose {
+    posed: Vec<PosedJoint>,
+    frusta: Vec<Frustum>,
+    pub records: Vec<JointRecord>,
+    pub bounds: Aabb,
+    /// The records differ from those on the GPU.
+    pub changed: bool,
+    /// Some joint was elsewhere in the frame before.
+    moving: bool,
+}
+
+impl OwnPose {
+    /// The pose in which a skeleton stands at rest.
+    pub(crate) fn at_rest(linked: &LinkedSkeleton, settings: Frusta) -> Self {
+        let mut pose = Self {
+            posed: linked.rest.clone(),
+            frusta: vec![Frustum::default(); linked.links.len()],
+            records: Vec::with_capacity(linked.links.len()),
+            bounds: Aabb::default(),
+            changed: true,
+            moving: false,
+        };
+        pose.skin(linked, settings, |i| linked.references[i]);
+        let joints = pose.posed.iter().zip(&pose.frusta);
+        pose.records.extend(joints.map(|(joint, frustum)| {
+            let join = settings.skin().join;
+            JointRecord::new(joint.position, joint.radius, frustum, join, None)
+        }));
+        pose.measure();
+        pose
+    }
+
+    /// Recomputes cones, cutting planes and records for the joints' new places. Allocates nothing.
+    pub(crate) fn follow(&mut self, linked: &LinkedSkeleton, settings: Frusta, pose: &PosedJoints) {
+        for (joint, position) in self.posed.iter_mut().zip(pose.positions()) {
+            // A joint that an animation has thrown out of the world stays where it was.
+            if position.is_finite() {
+                joint.position = *position;
+            }
+        }
+        self.skin(linked, settings, |i| {
+            let turned = pose.frame(i).map(|frame| frame.transform_vector3(linked.references[i]));
+            turned.unwrap_or(linked.references[i])
+        });
+        let join = settings.skin().join;
+        for (i, record) in self.records.iter_mut().enumerate() {
+            let joint = self.posed[i];
+            let frustum = &self.frusta[i];
+            *record = JointRecord::new(joint.position, joint.radius, frustum, join, Some(record));
+        }
+        self.changed = true;
+        self.moving = true;
+    }
+
+    /// Ends the motion of a plant whose pose has not changed since the last frame.
+    pub(crate) fn settle(&mut self) {
+        if !self.moving {
+            return;
+        }
+        self.moving = false;
+        for record in &mut self.records {
+            self.changed |= record.is_moving();
+            record.settle();
+        }
+    }
+
+    /// Recomputes the bounds.
+    pub(crate) fn measure(&mut self) {
+        self.bounds = aabb(&self.frusta);
+    }
+
+    fn skin(&mut self, linked: &LinkedSkeleton, settings: Frusta, first: impl Fn(usize) -> Vec3) {
+        skin(&linked.links, &self.posed, settings.skin(), &mut self.frusta);
+        align(&linked.links, &mut self.frusta, first);
+    }
+}

@@ -1,0 +1,227 @@
+#define_import_path bevy_verdure::frusta::trace
+
+// What all passes share: placing the bounds, and finding what a pixel sees of a segment.
+
+#import bevy_pbr::mesh_bindings::mesh
+#import bevy_pbr::mesh_functions
+#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, load_frustum, reference_across, from_octahedral}
+#import bevy_verdure::frusta::cast::{Ray, Hit, cast_ray, NO_ROOT, CONE}
+#import bevy_verdure::frusta::bounds::{bounds, bounds_corner}
+#import bevy_verdure::frusta::surface::{SurfacePoint, surface_point, TAU}
+#import bevy_verdure::frusta::view::{
+    Stand, PixelRay, stand, pixel_ray, pixel_width, near_depth, buffer_depth, local_to_clip, is_orthographic,
+}
+
+// Shares of a pixel by which the bounds are widened and the cutting planes overlap. Vertices are snapped to
+// 1/256 of a pixel, each end of an edge by half of that, so neighbours' bounds overlap in any case.
+const MARGIN: f32 = 0.02;
+const SLACK: f32 = 0.01;
+
+struct Corner {
+    @builtin(instance_index) instance_index: u32,
+    // Index of the segment times 8, plus the corner.
+    @location(0) corner: u32,
+}
+
+struct Varying {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat) instance_index: u32,
+    @location(1) @interpolate(flat) segment: u32,
+#ifdef VISIBILITY_RANGE_DITHER
+    @location(2) @interpolate(flat) visibility_range_dither: i32,
+#endif
+}
+
+fn place_corner(in: Corner) -> Varying {
+    var out: Varying;
+    out.instance_index = in.instance_index;
+    out.segment = in.corner >> 3u;
+    // Spare and empty segments collapse to a point outside the view.
+    out.position = vec4(0.0, 0.0, -2.0, 1.0);
+    let plant = plants[mesh[in.instance_index].tag];
+    if out.segment >= plant.joint_count {
+        return out;
+    }
+    let frustum = load_frustum(plant, out.segment);
+    let place = stand(in.instance_index);
+    let margin = MARGIN * local_pixel_width(place, frustum);
+    let b = bounds(frustum, margin);
+    if !b.drawn {
+        return out;
+    }
+    // In a mirrored plant the other side of the bounds faces out.
+    let corner = select(in.corner ^ 1u, in.corner, place.handedness > 0.0) & 7u;
+    var clip = local_to_clip(place, frustum.base + bounds_corner(b, corner));
+    // Only what is seen through the bounds may be clipped, not the bounds: their depth is never used.
+    clip.z = max(clip.z, 0.0);
+    if is_orthographic() {
+        clip.z = min(clip.z, 1.0);
+    }
+    out.position = clip;
+#ifdef VISIBILITY_RANGE_DITHER
+    out.visibility_range_dither = mesh_functions::get_visibility_range_dither_level(
+        in.instance_index, mesh_functions::get_world_from_local(in.instance_index)[3]);
+#endif
+    return out;
+}
+
+// The width of a pixel at the middle of a segment, in local metres.
+fn local_pixel_width(place: Stand, frustum: Frustum) -> f32 {
+    let middle = frustum.base + frustum.axis * (0.5 * frustum.length);
+    let from_eye = place.world_from_local * middle + place.from_eye;
+    let reach = 0.5 * frustum.length + max(frustum.end.radius, frustum.start.radius);
+    let local_metre = pow(abs(determinant(place.local_from_world)), 1.0 / 3.0);
+    return pixel_width(length(from_eye) + reach / local_metre) * local_metre;
+}
+
+// What a pixel sees of a segment.
+struct Seen {
+    frustum: Frustum,
+    place: Stand,
+    hit: Hit,
+    // The ray at the pixel's centre, and how it changes from pixel to pixel.
+    ray: PixelRay,
+    // Samples of the pixel that see the segment; 0 for a miss.
+    coverage: u32,
+    depth: f32,
+}
+
+fn see(in: Varying, sample_mask: u32) -> Seen {
+    var seen: Seen;
+    let plant = plants[mesh[in.instance_index].tag];
+    seen.frustum = load_frustum(plant, in.segment);
+    seen.place = stand(in.instance_index);
+    let slack = SLACK * local_pixel_width(seen.place, seen.frustum);
+    seen.ray = pixel_ray(seen.place, seen.frustum.base, in.position.xy);
+    seen.hit = cast_ray(Ray(seen.ray.origin, seen.ray.direction), seen.frustum, least_depth(), slack);
+    seen.coverage = select(0u, sample_mask, seen.hit.t < NO_ROOT);
+#ifdef FRUSTA_MULTISAMPLED
+    // Coverage is the geometry's own: each sample casts its own ray, and the pixel is shaded once.
+    var coverage = 0u;
+    for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
+        if (sample_mask & (1u << i)) == 0u {
+            continue;
+        }
+        let ray = pixel_ray(seen.place, seen.frustum.base, in.position.xy + sample_offset(i));
+        let hit = cast_ray(Ray(ray.origin, ray.direction), seen.frustum, least_depth(), slack);
+        if hit.t < NO_ROOT {
+            coverage |= 1u << i;
+            if seen.hit.t >= NO_ROOT {
+                seen.hit = hit;
+                seen.ray = ray;
+            }
+        }
+    }
+    seen.coverage = coverage;
+#endif
+    seen.depth = buffer_depth(seen.hit.t);
+#ifdef FRUSTA_UNCLIPPED_DEPTH
+    seen.depth = min(seen.depth, 1.0);
+#endif
+    return seen;
+}
+
+// Rays count from the near plane, but in shadow maps of directional lights from before it.
+fn least_depth() -> f32 {
+#ifdef FRUSTA_UNCLIPPED_DEPTH
+    return -NO_ROOT;
+#else
+    return near_depth();
+#endif
+}
+
+#ifdef FRUSTA_MULTISAMPLED
+// The standard sample positions, relative to the pixel's centre, in sixteenths of a pixel.
+fn sample_offset(i: u32) -> vec2<f32> {
+#if FRUSTA_SAMPLES == 2
+    var offsets = array<vec2<f32>, 2>(vec2(4.0, 4.0), vec2(-4.0, -4.0));
+#else if FRUSTA_SAMPLES == 4
+    var offsets = array<vec2<f32>, 4>(vec2(-2.0, -6.0), vec2(6.0, -2.0), vec2(-6.0, 2.0), vec2(2.0, 6.0));
+#else
+    var offsets = array<vec2<f32>, 8>(
+        vec2(1.0, -3.0), vec2(-1.0, 3.0), vec2(5.0, 1.0), vec2(-3.0, -5.0),
+        vec2(-5.0, 5.0), vec2(-7.0, -1.0), vec2(3.0, 7.0), vec2(7.0, -7.0),
+    );
+#endif
+    return offsets[i] / 16.0;
+}
+#endif
+
+// What the passes shade.
+struct Surface {
+    world_position: vec4<f32>,
+    world_normal: vec3<f32>,
+    // Towards growing u; w as in mikktspace.
+    world_tangent: vec4<f32>,
+    uv: vec2<f32>,
+    // Change of uv to the next pixel on the right, and below.
+    uv_dx: vec2<f32>,
+    uv_dy: vec2<f32>,
+}
+
+fn surface(seen: Seen, in: Varying) -> Surface {
+    let plant = plants[mesh[in.instance_index].tag];
+    let joint = joints[plant.first_joint + in.segment];
+    let shape = shapes[plant.first_shape + in.segment];
+    let frustum = seen.frustum;
+    let reference = reference_across(joint.reference, frustum.axis);
+    let s = surface_point(frustum, reference, shape.twist, seen.hit.point, seen.hit.part);
+    var out: Surface;
+    out.world_position = vec4(
+        bevy_verdure::frusta::view::local_to_world(seen.place, frustum.base + seen.hit.point),
+        1.0,
+    );
+    out.world_normal = normalize(transpose(seen.place.local_from_world) * s.normal);
+    let around = cross(frustum.axis, s.across);
+    out.world_tangent = vec4(normalize(seen.place.world_from_local * around), seen.place.handedness);
+    let v_length = shape.v_end - shape.v_start;
+    out.uv = vec2(s.u, shape.v_start + v_length * s.v);
+    // Gradients of the ray: where the rays of the neighbouring pixels meet the tangent plane.
+    let d = seen.ray.direction;
+    let facing = dot(s.true_normal, d);
+    let least = 0.05 * length(d);
+    let n_d = select(min(facing, -least), max(facing, least), facing > 0.0);
+    let generator = normalize(frustum.axis + s.across * frustum.slope);
+    let du = around / (TAU * max(s.distance, 1e-6)) + generator * (shape.twist / (TAU * s.span));
+    let dv = generator * (v_length / s.span);
+    for (var i = 0u; i < 2u; i++) {
+        let step = select(vec2(0.0, 1.0), vec2(1.0, 0.0), i == 0u);
+        let next = pixel_ray(seen.place, frustum.base, in.position.xy + step);
+        let moved = (next.origin - seen.ray.origin) + (next.direction - d) * seen.hit.t;
+        let on_plane = moved - d * (dot(s.true_normal, moved) / n_d);
+        let gradient = vec2(dot(du, on_plane), dot(dv, on_plane));
+        if i == 0u {
+            out.uv_dx = gradient;
+        } else {
+            out.uv_dy = gradient;
+        }
+    }
+    return out;
+}
+
+// Where the seen point was in the frame before, in the plant's local space of that frame.
+fn previous_local_position(seen: Seen, in: Varying) -> vec3<f32> {
+    let plant = plants[mesh[in.instance_index].tag];
+    let joint = joints[plant.first_joint + in.segment];
+    let parent = joints[plant.first_joint + shapes[plant.first_shape + in.segment].parent];
+    let frustum = seen.frustum;
+    if all(joint.previous_position == joint.position)
+        && all(parent.previous_position == parent.position)
+        && joint.previous_reference == joint.reference {
+        return frustum.base + seen.hit.point;
+    }
+    let across = joint.previous_position - parent.previous_position;
+    let length = length(across);
+    var axis = frustum.axis;
+    if length > 0.0 {
+        axis = across / length;
+    }
+    // The point keeps its place along the segment and round it.
+    let reference = reference_across(joint.reference, frustum.axis);
+    let previous_reference = reference_across(joint.previous_reference, axis);
+    let p = seen.hit.point;
+    let x = dot(p, reference);
+    let z = dot(p, cross(frustum.axis, reference));
+    let y = dot(p, frustum.axis) * select(1.0, length / frustum.length, frustum.length > 0.0);
+    return parent.previous_position + axis * y + previous_reference * x + cross(axis, previous_reference) * z;
+}

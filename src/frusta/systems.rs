@@ -1,0 +1,178 @@
+//! The systems that follow plants from frame to frame, in the order of [`VerdureSystems`](crate::VerdureSystems).
+
+use bevy::asset::prelude::AssetChanged;
+use bevy::camera::primitives::Aabb;
+use bevy::mesh::MeshTag;
+use bevy::platform::time::Instant;
+use bevy::prelude::*;
+
+use super::component::Frusta;
+use super::material::FrustaMaterial;
+use super::mesh::FrustaMeshes;
+use super::plant::FrustaPlant;
+use super::share::FrustaData;
+use super::stats::FrustaStats;
+use crate::skeleton::{PosedJoints, Skeleton, Skeleton3d};
+
+/// Notes which skeletons were reloaded.
+pub(crate) fn follow_skeletons(
+    mut events: MessageReader<AssetEvent<Skeleton>>,
+    mut data: ResMut<FrustaData>,
+) {
+    for event in events.read() {
+        match event {
+            AssetEvent::Modified { id } => data.reloaded(*id),
+            AssetEvent::Removed { id } => data.unloaded(*id),
+            _ => {}
+        }
+    }
+}
+
+/// What tells that a plant needs a (new) place in the tables.
+type Unattached = Or<(
+    Without<FrustaPlant>,
+    Changed<Skeleton3d>,
+    Changed<Frusta>,
+    Added<PosedJoints>,
+    AssetChanged<Skeleton3d>,
+)>;
+
+/// Attaches plants whose skeleton is loaded. One whose skeleton is not there yet, or could not be reloaded, keeps
+/// what it has.
+pub(crate) fn attach(
+    mut commands: Commands,
+    skeletons: Res<Assets<Skeleton>>,
+    mut meshes: ResMut<FrustaMeshes>,
+    mut mesh_assets: ResMut<Assets<Mesh>>,
+    mut data: ResMut<FrustaData>,
+    mut unposed: RemovedComponents<PosedJoints>,
+    changed: Query<Entity, (With<Skeleton3d>, Unattached)>,
+    plants: Query<(&Skeleton3d, &Frusta, Has<PosedJoints>, Option<&FrustaPlant>)>,
+) {
+    for entity in changed.iter().chain(unposed.read()) {
+        let Ok((skeleton3d, settings, posed, plant)) = plants.get(entity) else {
+            continue;
+        };
+        let id = skeleton3d.id();
+        let Some(skeleton) = skeletons.get(id) else {
+            continue;
+        };
+        if let Some(plant) = plant {
+            let same = plant.skeleton == data.key(id)
+                && plant.settings == *settings
+                && plant.own.is_some() == posed;
+            if same {
+                continue;
+            }
+        }
+        let Some((plant, bounds)) = data.attach(id, skeleton, *settings, posed) else {
+            continue;
+        };
+        let mesh = meshes.with_segments(plant.linked.links.len(), &mut mesh_assets);
+        // Inserting the new component drops the old one, which gives its rows back.
+        commands.entity(entity).try_insert((
+            Mesh3d(mesh),
+            MeshTag(plant.slot.first()),
+            plant,
+            bounds,
+        ));
+    }
+}
+
+/// Gives a plant's rows back when it is no longer drawn, or before it is attached anew.
+pub(crate) fn detach(
+    replaced: On<Discard, FrustaPlant>,
+    plants: Query<&FrustaPlant>,
+    mut data: ResMut<FrustaData>,
+) {
+    if let Ok(plant) = plants.get(replaced.entity) {
+        data.detach(plant);
+    }
+}
+
+/// Stops drawing an entity that is a plant no more.
+pub(crate) fn uproot(removed: On<Remove, Skeleton3d>, mut commands: Commands) {
+    if let Ok(mut entity) = commands.get_entity(removed.entity) {
+        entity.try_remove::<(FrustaPlant, Mesh3d, MeshTag, Aabb)>();
+    }
+}
+
+/// Recomputes cones, cutting planes and GPU records of the plants whose pose has changed.
+pub(crate) fn cut_planes(
+    mut stats: ResMut<FrustaStats>,
+    mut plants: Query<(&mut FrustaPlant, Ref<PosedJoints>)>,
+) {
+    let started = Instant::now();
+    plants.par_iter_mut().for_each(|(mut plant, posed)| {
+        // Not a change that anything waits for: what moved is told by `changed` below.
+        let plant = plant.bypass_change_detection();
+        let Some(own) = &mut plant.own else { return };
+        let fresh = posed.is_changed() && posed.positions().len() == plant.linked.links.len();
+        if fresh {
+            own.follow(&plant.linked, plant.settings, &posed);
+        } else {
+            own.settle();
+        }
+    });
+    stats.cutting_planes = started.elapsed();
+}
+
+/// Recomputes the bounds of the plants whose pose has changed.
+pub(crate) fn update_bounds(mut plants: Query<(&mut FrustaPlant, &mut Aabb)>) {
+    plants.par_iter_mut().for_each(|(mut plant, mut aabb)| {
+        let plant = plant.bypass_change_detection();
+        let Some(own) = &mut plant.own else { return };
+        if own.changed {
+            own.measure();
+            aabb.set_if_neq(own.bounds);
+        }
+    });
+}
+
+/// Writes what has changed into the tables, from where it is extracted.
+pub(crate) fn collect(
+    mut data: ResMut<FrustaData>,
+    mut stats: ResMut<FrustaStats>,
+    mut plants: Query<&mut FrustaPlant>,
+    mut materials: ResMut<Assets<FrustaMaterial>>,
+    mut announced: Local<[usize; 3]>,
+) {
+    let data = data.as_mut();
+    stats.plants = 0;
+    stats.segments = 0;
+    stats.moved_joints = 0;
+    for mut plant in &mut plants {
+        let plant = plant.bypass_change_detection();
+        stats.plants += 1;
+        stats.segments += plant.linked.segments;
+        if let Some(own) = &mut plant.own
+            && own.changed
+        {
+            own.changed = false;
+            stats.moved_joints += own.records.len();
+            data.joints.write(plant.joints, &own.records);
+        }
+    }
+    stats.uploaded_bytes = data.joints.changed_bytes()
+        + data.shapes.changed_bytes()
+        + data.plants.changed_bytes();
+    // Buffers that have to grow are made anew, and with them the bind groups that name them.
+    let lengths = [
+        data.joints.rows().len(),
+        data.shapes.rows().len(),
+        data.plants.rows().len(),
+    ];
+    let capacities = lengths.map(super::buffers::capacity);
+    if capacities != *announced {
+        *announced = capacities;
+        // Going through them marks them all modified.
+        materials.iter_mut().for_each(drop);
+    }
+}
+
+/// Forgets what was uploaded in the frame before.
+pub(crate) fn begin_frame(mut data: ResMut<FrustaData>) {
+    data.joints.clear_changed();
+    data.shapes.clear_changed();
+    data.plants.clear_changed();
+}

@@ -1,0 +1,139 @@
+//! A GPU buffer's content as the main world keeps it: rows in ranges that come and go, and which have changed.
+
+use core::ops::Range;
+
+use bevy::log::error;
+use bytemuck::Pod;
+use offset_allocator::{Allocation, Allocator};
+
+/// Rows of one storage buffer.
+pub(crate) struct Table<T> {
+    rows: Vec<T>,
+    allocator: Allocator,
+    changed: Vec<Range<usize>>,
+    name: &'static str,
+}
+
+/// A range of rows that is in use.
+#[derive(Clone, Copy)]
+pub(crate) struct Rows {
+    allocation: Allocation,
+    len: u32,
+}
+
+impl Rows {
+    /// Index of the first row.
+    pub(crate) fn first(&self) -> u32 {
+        self.allocation.offset
+    }
+}
+
+/// Rows that a table has room for: as many as one storage buffer of 128 MiB, the least that every device
+/// offers, holds of the largest record.
+const CAPACITY: u32 = (128 << 20) / 64;
+
+impl<T: Pod> Table<T> {
+    /// An empty table; `name` is for messages.
+    pub(crate) fn new(name: &'static str) -> Self {
+        Self {
+            rows: Vec::new(),
+            allocator: Allocator::new(CAPACITY),
+            changed: Vec::new(),
+            name,
+        }
+    }
+
+    /// Takes `len` rows, at least one; `None`, with an error in the log, when there is no room left.
+    pub(crate) fn allocate(&mut self, len: usize) -> Option<Rows> {
+        let len = u32::try_from(len.max(1)).ok()?;
+        let Some(allocation) = self.allocator.allocate(len) else {
+            error!(
+                "no room for {len} more {} of plants on the GPU (the limit is {CAPACITY}): the plant is not \
+                 drawn. Despawn plants, let more of them share a skeleton and a pose, or use skeletons \
+                 with fewer joints",
+                self.name
+            );
+            return None;
+        };
+        let end = (allocation.offset + len) as usize;
+        if self.rows.len() < end {
+            self.rows.resize(end, T::zeroed());
+        }
+        Some(Rows { allocation, len })
+    }
+
+    /// Gives rows back.
+    pub(crate) fn free(&mut self, rows: Rows) {
+        self.allocator.free(rows.allocation);
+    }
+
+    /// Writes rows, which must be as many as were taken, and marks them changed.
+    pub(crate) fn write(&mut self, rows: Rows, content: &[T]) {
+        let start = rows.first() as usize;
+        let end = start + content.len().min(rows.len as usize);
+        self.rows[start..end].copy_from_slice(&content[..end - start]);
+        match self.changed.last_mut() {
+            Some(last) if last.end == start => last.end = end,
+            _ => self.changed.push(start..end),
+        }
+    }
+
+    /// All rows, used or not.
+    pub(crate) fn rows(&self) -> &[T] {
+        &self.rows
+    }
+
+    /// Ranges written since [`clear_changed`](Self::clear_changed).
+    pub(crate) fn changed(&self) -> &[Range<usize>] {
+        &self.changed
+    }
+
+    /// Bytes written since [`clear_changed`](Self::clear_changed).
+    pub(crate) fn changed_bytes(&self) -> usize {
+        let rows: usize = self.changed.iter().map(|range| range.len()).sum();
+        rows * size_of::<T>()
+    }
+
+    /// Forgets which rows have changed.
+    pub(crate) fn clear_changed(&mut self) {
+        self.changed.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_that_touch_are_uploaded_as_one_and_those_that_stand_still_not_at_all() {
+        let mut table = Table::<u32>::new("rows");
+        let [a, b, c, d] = [3, 2, 4, 1].map(|len| table.allocate(len).unwrap());
+        for rows in [a, b, c, d] {
+            table.write(rows, &vec![7; rows.len as usize]);
+        }
+        assert_eq!(table.changed_bytes(), 10 * 4);
+        assert_eq!(table.changed().len(), 1);
+        table.clear_changed();
+        table.write(a, &[1, 2, 3]);
+        table.write(b, &[4, 5]);
+        table.write(d, &[6]);
+        assert_eq!(table.changed(), &[0..5, 9..10]);
+    }
+
+    #[test]
+    fn rows_given_back_are_used_again() {
+        let mut table = Table::<u32>::new("rows");
+        let first = table.allocate(100).unwrap();
+        table.allocate(1).unwrap();
+        table.free(first);
+        assert!(table.allocate(90).unwrap().first() < 100);
+        assert_eq!(table.rows().len(), 101);
+    }
+
+    #[test]
+    fn a_table_that_is_full_says_so_and_goes_on() {
+        let mut table = Table::<u8>::new("rows");
+        assert!(table.allocate(CAPACITY as usize + 1).is_none());
+        assert!(table.allocate(1).is_some());
+    }
+}

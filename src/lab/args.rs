@@ -1,0 +1,70 @@
+//! The arguments that all examples share.
+
+use std::path::PathBuf;
+
+use bevy::math::{UVec2, Vec3};
+use clap::Args;
+
+/// Arguments of every example.
+#[derive(Args, Clone, Debug)]
+pub struct CommonArgs {
+    /// Render without a window and write PNGs.
+    #[arg(long)]
+    pub headless: bool,
+    /// Size of the window or the pictures, in pixels.
+    #[arg(long, default_value = "1024x768", value_parser = parse_size)]
+    pub size: Size,
+    /// Frames to render when headless.
+    #[arg(long, default_value_t = 24)]
+    pub frames: usize,
+    /// Folder for what is written.
+    #[arg(long, default_value = "out")]
+    pub out: PathBuf,
+    /// Write figures of the run to this JSON file.
+    #[arg(long, value_name = "FILE.json")]
+    pub stats: Option<PathBuf>,
+}
+
+/// Width and height in pixels.
+pub type Size = UVec2;
+
+/// Largest side of a picture, in pixels: what every device can render to.
+const LARGEST: u32 = 8192;
+
+/// Reads a size like `640x480`.
+pub fn parse_size(text: &str) -> Result<Size, String> {
+    let parts = text.split_once(['x', 'X', '×']);
+    let side = |side: &str| side.trim().parse::<u32>().ok().filter(|&side| (1..=LARGEST).contains(&side));
+    parts
+        .and_then(|(width, height)| Some(UVec2::new(side(width)?, side(height)?)))
+        .ok_or_else(|| format!("'{text}' is no size: write it like 640x480, each side 1 to {LARGEST}"))
+}
+
+/// Reads a point like `1.5,0,-2`.
+pub fn parse_vec3(text: &str) -> Result<Vec3, String> {
+    let numbers: Vec<f32> = text
+        .split(',')
+        .filter_map(|number| number.trim().parse().ok())
+        .filter(|number: &f32| number.is_finite())
+        .collect();
+    match (numbers.as_slice(), text.split(',').count()) {
+        (&[x, y, z], 3) => Ok(Vec3::new(x, y, z)),
+        _ => Err(format!("'{text}' is no point: write it like 1.5,0,-2")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_and_points_are_read_and_nonsense_is_named() {
+        assert_eq!(parse_size("640x480"), Ok(UVec2::new(640, 480)));
+        assert!(parse_size("640").unwrap_err().contains("640x480"));
+        assert!(parse_size("0x99999").is_err());
+        assert_eq!(parse_vec3("1.5, 0,-2"), Ok(Vec3::new(1.5, 0.0, -2.0)));
+        assert!(parse_vec3("1,2").is_err());
+        assert!(parse_vec3("1,2,x,3").is_err());
+        assert!(parse_vec3("1,2,NaN").is_err());
+    }
+}

@@ -1,0 +1,20 @@
+//! Measuring: a headless app, the reference that judges the shaders, image error, and figures for charts.
+//!
+//! Behind the feature `lab`, which examples, tests and benches turn on; a game never compiles it.
+
+mod args;
+mod capture;
+mod compare;
+mod exr_file;
+mod headless;
+// pub mod reference;
+mod studio;
+mod timing;
+
+pub use args::{CommonArgs, Size, parse_size, parse_vec3};
+pub use capture::Pixels;
+pub use compare::mean_flip;
+pub use exr_file::save_exr;
+pub use headless::{Headless, adapter_name, wait_for_gpu};
+pub use studio::{Figures, Lens, NEAR, SeenPixel, Shot, Studio};
+pub use timing::{FrameStats, median};

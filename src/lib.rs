@@ -1,0 +1,82 @@
+//! Vegetation for Bevy, drawn without modelling more than a scene needs.
+#![doc = ""]
+#![warn(missing_docs)]
+
+pub mod frusta;
+#[cfg(feature = "lab")]
+pub mod lab;
+pub mod skeleton;
+
+use bevy::app::PluginGroupBuilder;
+use bevy::camera::visibility::VisibilitySystems;
+use bevy::prelude::*;
+
+/// What most games import.
+pub mod prelude {
+    pub use crate::frusta::{
+        Ends, Frusta, FrustaExtension, FrustaMaterial, FrustaOutput, FrustaStats, Join, ShadingNormals,
+        frusta_material,
+    };
+    pub use crate::skeleton::{
+        Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,
+        UnfoldSkeleton,
+    };
+    pub use crate::{VerdurePlugin, VerdureSystems};
+}
+
+/// All of bevy_verdure: one plugin a method, and the skeletons they grow on.
+///
+/// ```no_run
+/// # use bevy::prelude::*;
+/// # use bevy_verdure::prelude::*;
+/// App::new().add_plugins((DefaultPlugins, VerdurePlugin)).run();
+/// ```
+pub struct VerdurePlugin;
+
+impl PluginGroup for VerdurePlugin {
+    fn build(self) -> PluginGroupBuilder {
+        PluginGroupBuilder::start::<Self>()
+            .add(SchedulePlugin)
+            .add(skeleton::SkeletonPlugin)
+            .add(skeleton::PlantPlugin)
+            .add(frusta::FrustaPlugin)
+    }
+}
+
+/// The stages of a frame in which plants are brought up to date, in this order, in [`PostUpdate`]: after
+/// animation, before visibility is found. Put systems of your own before or after them.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum VerdureSystems {
+    /// Plants are unfolded, and given a place on the GPU once their skeleton is loaded.
+    Attach,
+    /// Poses become joint positions. Systems that pose plants run before this.
+    Pose,
+    /// Cones and cutting planes are recomputed for what moved.
+    CuttingPlanes,
+    /// [`Aabb`](bevy::camera::primitives::Aabb)s are recomputed for what moved.
+    Bounds,
+    /// What changed is handed to the GPU.
+    Upload,
+}
+
+/// Orders [`VerdureSystems`] in the frame.
+struct SchedulePlugin;
+
+impl Plugin for SchedulePlugin {
+    fn build(&self, app: &mut App) {
+        app.configure_sets(
+            PostUpdate,
+            (
+                VerdureSystems::Attach,
+                VerdureSystems::Pose,
+                VerdureSystems::CuttingPlanes,
+                VerdureSystems::Bounds,
+                VerdureSystems::Upload,
+            )
+                .chain()
+                .after(bevy::app::AnimationSystems)
+                .before(VisibilitySystems::CalculateBounds)
+                .before(VisibilitySystems::CheckVisibility),
+        );
+    }
+}

@@ -1,0 +1,135 @@
+//! Poses: where the joints of a bent plant are.
+
+use bevy::asset::prelude::AssetChanged;
+use bevy::math::Affine3A;
+use bevy::prelude::*;
+
+use super::{Joint, Skeleton, Skeleton3d};
+
+/// Bends a plant by a rotation a joint: the cheap way, for crowds.
+///
+/// Write the rotations from any system before [`VerdureSystems::Pose`](crate::VerdureSystems::Pose); nothing is
+/// recomputed while this component is unchanged.
+#[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[require(PosedJoints)]
+pub struct SkeletonPose {
+    /// For each joint, by index, the rotation of the segment that ends there, about its parent's joint, on top
+    /// of its parent's segment. In the plant's local axes as the skeleton stands at rest. Joints
+    /// without an entry, and those whose entry is not finite, stay as they are at rest; entries of roots turn
+    /// nothing.
+    pub rotations: Vec<Quat>,
+}
+
+/// The pose of a plant that does not stand as its skeleton does, computed in
+/// [`VerdureSystems::Pose`](crate::VerdureSystems::Pose). Empty until then.
+#[derive(Component, Clone, Debug, Default, Reflect)]
+#[reflect(Component, Clone, Debug, Default)]
+pub struct PosedJoints {
+    /// Position of each joint, in metres, in the plant's local space.
+    pub(crate) positions: Vec<Vec3>,
+    /// Frame of each segment: maps its rest frame, with the origin at the segment's start, to local space.
+    pub(crate) frames: Vec<Affine3A>,
+}
+
+impl PosedJoints {
+    /// Position of each joint, by index, in metres, in the plant's local space.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// The frame of the segment that ends at `joint`: maps the rest frame, with its origin at the segment's start
+    /// and the plant's local axes, to where the segment is now. `None` before the first pose.
+    pub fn frame(&self, joint: usize) -> Option<Affine3A> {
+        self.frames.get(joint).copied()
+    }
+
+    /// Poses all joints. `local(i)` is the transform of segment `i` within its parent segment's frame.
+    pub(crate) fn set(&mut self, joints: &[Joint], local: impl Fn(usize) -> Affine3A) {
+        self.positions.resize(joints.len(), Vec3::ZERO);
+        self.frames.resize(joints.len(), Affine3A::IDENTITY);
+        for (i, joint) in joints.iter().enumerate() {
+            let Some(parent) = joint.parent else {
+                self.positions[i] = joint.position;
+                self.frames[i] = Affine3A::IDENTITY;
+                continue;
+            };
+            let parent = parent as usize;
+            let frame = self.frames[parent] * local(i);
+            self.frames[i] = frame;
+            self.positions[i] = frame.transform_point3(joint.position - joints[parent].position);
+        }
+    }
+}
+
+/// Where a segment's frame sits in its parent segment's frame at rest.
+pub(crate) fn rest_translation(joints: &[Joint], i: usize) -> Vec3 {
+    let Some(parent) = joints[i].parent else {
+        return joints[i].position;
+    };
+    let parent = &joints[parent as usize];
+    match parent.parent {
+        Some(grandparent) => parent.position - joints[grandparent as usize].position,
+        None => parent.position,
+    }
+}
+
+/// Poses the plants whose [`SkeletonPose`], or whose skeleton, has changed.
+pub(crate) fn pose_from_rotations(
+    skeletons: Res<Assets<Skeleton>>,
+    mut plants: Query<
+        (&Skeleton3d, &SkeletonPose, &mut PosedJoints),
+        Or<(
+            Changed<SkeletonPose>,
+            Changed<Skeleton3d>,
+            AssetChanged<Skeleton3d>,
+        )>,
+    >,
+) {
+    plants.par_iter_mut().for_each(|(skeleton, pose, mut posed)| {
+        let Some(skeleton) = skeletons.get(&skeleton.0) else {
+            return;
+        };
+        let joints = skeleton.joints();
+        posed.set(joints, |i| {
+            let rotation = pose.rotations.get(i).copied().unwrap_or_default();
+            let rotation = if rotation.is_finite() {
+                rotation
+            } else {
+                Quat::IDENTITY
+            };
+            Affine3A::from_rotation_translation(rotation, rest_translation(joints, i))
+        });
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f32::consts::FRAC_PI_2;
+
+    #[test]
+    fn a_rotation_carries_all_that_hangs_on_its_segment() {
+        let joints = [
+            Joint::root(Vec3::X, 0.1),
+            Joint::new(Vec3::new(1.0, 1.0, 0.0), 0.1, 0),
+            Joint::new(Vec3::new(1.0, 2.0, 0.0), 0.1, 1),
+        ];
+        let mut posed = PosedJoints::default();
+        posed.set(&joints, |i| {
+            let turn = if i == 1 { FRAC_PI_2 } else { 0.0 };
+            Affine3A::from_rotation_translation(
+                Quat::from_rotation_z(turn),
+                rest_translation(&joints, i),
+            )
+        });
+        // A quarter turn to the left about (1, 0, 0); 4 roundings of numbers below 2.
+        for (position, expected) in posed.positions.iter().zip([
+            Vec3::X,
+            Vec3::ZERO,
+            Vec3::new(-1.0, 0.0, 0.0),
+        ]) {
+            assert!(position.distance(expected) < 4.0 * 2.0 * f32::EPSILON);
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Unfolding a plant into one entity a segment, so that anything that moves entities bends it.
+
+use bevy::math::Affine3A;
+use bevy::platform::collections::HashSet;
+use bevy::prelude::*;
+
+use super::pose::rest_translation;
+use super::{PosedJoints, Skeleton, Skeleton3d};
+
+/// Unfolds a plant into one child entity a segment ([`SkeletonSegment`]), once its skeleton is loaded.
+///
+/// Segments are children along the hierarchy: each is a child of the segment that its own starts from, those at
+/// a root children of the plant. A segment's origin is its start, its axes are the plant's at rest, so its
+/// rest [`Transform`] is a translation alone. Rotate it and all that hangs on it bends along. Each has a
+/// [`Name`], `Segment 7`, so that animation clips can address it.
+///
+/// When the skeleton is reloaded with other joints, the plant is unfolded anew. Removing this component folds the
+/// plant up again: its segments are despawned and it stands at rest.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[require(PosedJoints)]
+pub struct UnfoldSkeleton;
+
+/// One segment of an unfolded plant. Its [`Transform`] bends the plant.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Reflect)]
+#[reflect(Component, Clone, Debug, PartialEq)]
+#[require(Transform, Visibility)]
+pub struct SkeletonSegment {
+    /// The plant's entity.
+    pub plant: Entity,
+    /// Index of the joint that ends this segment.
+    pub joint: u32,
+}
+
+/// The segments of an unfolded plant, by joint; roots, which end no segment, have none.
+#[derive(Component, Clone, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct SegmentEntities {
+    entities: Vec<Option<Entity>>,
+    skeleton: Option<AssetId<Skeleton>>,
+}
+
+impl SegmentEntities {
+    /// The entity of the segment that ends at `joint`.
+    pub fn get(&self, joint: usize) -> Option<Entity> {
+        self.entities.get(joint).copied().flatten()
+    }
+
+    /// All segments with their joints' indices, parents first.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, Entity)> + '_ {
+        let with_index = self.entities.iter().enumerate();
+        with_index.filter_map(|(joint, entity)| Some((joint, (*entity)?)))
+    }
+}
+
+/// Spawns the segments of plants that are to be unfolded and whose skeleton is loaded.
+pub(crate) fn unfold(
+    mut commands: Commands,
+    skeletons: Res<Assets<Skeleton>>,
+    mut events: MessageReader<AssetEvent<Skeleton>>,
+    plants: Query<(Entity, &Skeleton3d, Option<&SegmentEntities>), With<UnfoldSkeleton>>,
+    changed: Query<(), (With<UnfoldSkeleton>, Changed<Skeleton3d>)>,
+    folded: Query<(), (With<UnfoldSkeleton>, Without<SegmentEntities>)>,
+) {
+    let reloaded: HashSet<AssetId<Skeleton>> = events
+        .read()
+        .filter_map(|event| match event {
+            AssetEvent::Added { id } | AssetEvent::Modified { id } => Some(*id),
+            _ => None,
+        })
+        .collect();
+    if reloaded.is_empty() && changed.is_empty() && folded.is_empty() {
+        return;
+    }
+    for (plant, skeleton3d, unfolded) in &plants {
+        let id = skeleton3d.id();
+        let Some(skeleton) = skeletons.get(id) else {
+            continue;
+        };
+        if let Some(unfolded) = unfolded {
+            let same = unfolded.skeleton == Some(id) && !reloaded.contains(&id);
+            if same {
+                continue;
+            }
+            despawn_segments(&mut commands, unfolded);
+        }
+        let mut entities: Vec<Option<Entity>> = Vec::with_capacity(skeleton.len());
+        for (i, joint) in skeleton.joints().iter().enumerate() {
+            let entity = joint.parent.map(|parent| {
+                let above = entities[parent as usize].unwrap_or(plant);
+                let rest = rest_translation(skeleton.joints(), i);
+                commands
+                    .spawn((
+                        Name::new(format!("Segment {i}")),
+                        SkeletonSegment {
+                            plant,
+                            joint: i as u32,
+                        },
+                        Transform::from_translation(rest),
+                        ChildOf(above),
+                    ))
+                    .id()
+            });
+            entities.push(entity);
+        }
+        commands.entity(plant).insert(SegmentEntities {
+            entities,
+            skeleton: Some(id),
+        });
+    }
+}
+
+/// Folds a plant up when [`UnfoldSkeleton`] is removed from it.
+pub(crate) fn fold(
+    removed: On<Remove, UnfoldSkeleton>,
+    mut commands: Commands,
+    plants: Query<&SegmentEntities>,
+) {
+    if let Ok(unfolded) = plants.get(removed.entity) {
+        despawn_segments(&mut commands, unfolded);
+        if let Ok(mut plant) = commands.get_entity(removed.entity) {
+            plant.try_remove::<(SegmentEntities, PosedJoints)>();
+        }
+    }
+}
+
+fn despawn_segments(commands: &mut Commands, unfolded: &SegmentEntities) {
+    for (_, entity) in unfolded.iter() {
+        // Despawning one despawns those that hang on it; later ones may be gone.
+        if let Ok(mut segment) = commands.get_entity(entity) {
+            segment.try_despawn();
+        }
+    }
+}
+
+/// Poses unfolded plants of which any segment's [`Transform`] has changed.
+pub(crate) fn pose_from_segments(
+    skeletons: Res<Assets<Skeleton>>,
+    segments: Query<Ref<Transform>, With<SkeletonSegment>>,
+    mut plants: Query<(&Skeleton3d, Ref<SegmentEntities>, &mut PosedJoints), With<UnfoldSkeleton>>,
+) {
+    plants
+        .par_iter_mut()
+        .for_each(|(skeleton, unfolded, mut posed)| {
+            let Some(skeleton) = skeletons.get(&skeleton.0) else {
+                return;
+            };
+            if unfolded.entities.len() != skeleton.len() {
+                return;
+            }
+            let moved = unfolded.is_changed()
+                || unfolded.iter().any(|(_, entity)| {
+                    segments
+                        .get(entity)
+                        .is_ok_and(|transform| transform.is_changed())
+                });
+            if !moved {
+                return;
+            }
+            let joints = skeleton.joints();
+            posed.set(joints, |i| {
+                let transform = unfolded.entities[i].and_then(|entity| segments.get(entity).ok());
+                match transform {
+                    Some(transform) if transform.is_finite() => transform.compute_affine(),
+                    // A segment that is gone, or nowhere, stands as it does at rest.
+                    _ => Affine3A::from_translation(rest_translation(joints, i)),
+                }
+            });
+        });
+}
