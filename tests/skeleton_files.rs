@@ -1,11 +1,14 @@
 //! Skeleton files: whatever is in them, reading gives a skeleton or an error that helps.
 
 use std::ops::Range;
+use std::time::{Duration, Instant};
 
+use bevy::asset::{AssetPlugin, LoadState};
 use bevy::math::{DVec3, Vec3};
+use bevy::prelude::{App, AssetServer, Assets, TaskPoolPlugin};
 use bevy_verdure::skeleton::{
-    Joint, MAX_JOINTS, Recentre, Skeleton, SkeletonFileError, SkeletonLoaderSettings, UpAxis,
-    skeleton_from_bytes,
+    Joint, MAX_JOINTS, Recentre, Skeleton, SkeletonFileError, SkeletonLoaderSettings,
+    SkeletonPlugin, UpAxis, skeleton_from_bytes,
 };
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -100,6 +103,56 @@ fn the_simpleforest_sample_counts_ids_from_zero() {
         Joint::new(Vec3::new(0.5, 5.5, -2.25), 0.0625, 1),
     ];
     assert_eq!(read(path, text).unwrap().joints(), expected);
+}
+
+// ---------------------------------------------------------------- the asset server
+
+/// Loads a file of the asset folder as a game does, with a scale of its own.
+fn load(path: &'static str, scale: f32) -> Result<Skeleton, String> {
+    let mut app = App::new();
+    app.add_plugins((
+        TaskPoolPlugin::default(),
+        AssetPlugin::default(),
+        SkeletonPlugin,
+    ));
+    let server = app.world().resource::<AssetServer>().clone();
+    let with_scale = move |settings: &mut SkeletonLoaderSettings| settings.scale = scale;
+    let handle = server.load_builder().with_settings(with_scale).load(path);
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_secs(60) {
+        app.update();
+        match server.load_state(&handle) {
+            LoadState::Loaded => {
+                let skeletons = app.world().resource::<Assets<Skeleton>>();
+                return Ok(skeletons.get(&handle).unwrap().clone());
+            }
+            LoadState::Failed(error) => return Err(error.to_string()),
+            _ => std::thread::sleep(Duration::from_millis(1)),
+        }
+    }
+    panic!("{path} was not loaded in a minute");
+}
+
+#[test]
+fn the_asset_server_loads_every_kind_of_file() {
+    for (path, bytes) in SAMPLES {
+        let asset_path = std::format!("test/{path}").leak();
+        assert_eq!(load(asset_path, 1.0), Ok(read(path, bytes).unwrap()));
+    }
+}
+
+#[test]
+fn the_asset_server_passes_settings_on() {
+    let skeleton = load("test/fork.swc", 0.5).unwrap();
+    assert_eq!(skeleton.joints()[1], Joint::new(Vec3::Y, 0.075, 0));
+}
+
+#[test]
+fn the_asset_server_says_what_is_wrong_and_where() {
+    let message = load("test/broken.swc", 1.0).unwrap_err();
+    for hint in ["test/broken.swc, line 3: parent 7", "-1 for a root"] {
+        assert!(message.contains(hint), "{message}");
+    }
 }
 
 // ---------------------------------------------------------------- bad input

@@ -263,7 +263,6 @@ pub fn texture(size: u32, srgb: bool, texel: impl Fn(f32, f32) -> [f32; 4]) -> I
         mag_filter: ImageFilterMode::Linear,
         min_filter: ImageFilterMode::Linear,
         mipmap_filter: ImageFilterMode::Linear,
-        anisotropy_clamp: 8,
         ..default()
     });
     image

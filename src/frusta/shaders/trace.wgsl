@@ -99,12 +99,9 @@ fn see(in: Varying, sample_mask: u32) -> Seen {
     // Coverage is the geometry's own: each sample casts its own ray, and the pixel is shaded once.
     var coverage = 0u;
     for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
-        if (sample_mask & (1u << i)) == 0u {
-            continue;
-        }
         let ray = pixel_ray(seen.place, seen.frustum.base, in.position.xy + sample_offset(i));
         let hit = cast_ray(Ray(ray.origin, ray.direction), seen.frustum, least_depth(), slack);
-        if hit.t < NO_ROOT {
+        if (sample_mask & (1u << i)) != 0u && hit.t < NO_ROOT {
             coverage |= 1u << i;
             if seen.hit.t >= NO_ROOT {
                 seen.hit = hit;
@@ -189,7 +186,8 @@ fn surface(seen: Seen, in: Varying) -> Surface {
         let next = pixel_ray(seen.place, frustum.base, in.position.xy + step);
         let moved = (next.origin - seen.ray.origin) + (next.direction - d) * seen.hit.t;
         let on_plane = moved - d * (dot(s.true_normal, moved) / n_d);
-        let gradient = vec2(dot(du, on_plane), dot(dv, on_plane));
+        // Half a texture a pixel selects the smallest mip level; more, as at the pole of a cap, only costs.
+        let gradient = clamp(vec2(dot(du, on_plane), dot(dv, on_plane)), vec2(-0.5), vec2(0.5));
         if i == 0u {
             out.uv_dx = gradient;
         } else {

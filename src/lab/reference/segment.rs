@@ -66,7 +66,7 @@ pub enum SegmentBody {
     Hidden,
 }
 
-/// A segment of a [`ReferenceScene`].
+/// A segment of a [`ReferenceScene`](super::ReferenceScene).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// The joint that it ends at.
