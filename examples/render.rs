@@ -88,7 +88,10 @@ fn run(args: &Args) -> Result<(), String> {
     let skeleton = skeleton_from_bytes(&path, &bytes, &SkeletonLoaderSettings::default())
         .map_err(|error| error.to_string())?;
     if !(args.fov > 0.0 && args.fov < 180.0) {
-        return Err(format!("--fov {}: give an angle between 0 and 180 degrees", args.fov));
+        return Err(format!(
+            "--fov {}: give an angle between 0 and 180 degrees",
+            args.fov
+        ));
     }
     let lens = match args.ortho {
         Some(height) if !(height > 0.0 && height.is_finite()) => {
@@ -157,7 +160,11 @@ fn frame(args: &Args, skeleton: &Skeleton, lens: Lens) -> Shot {
 
 /// A sun with shadows that cover the plant, and some sky.
 fn light(studio: &mut Studio, skeleton: &Skeleton) {
-    let reach = skeleton.joints().iter().map(|joint| joint.position.length()).fold(1.0, f32::max);
+    let reach = skeleton
+        .joints()
+        .iter()
+        .map(|joint| joint.position.length())
+        .fold(1.0, f32::max);
     let world = studio.world();
     world.insert_resource(GlobalAmbientLight {
         color: Color::srgb(0.7, 0.8, 1.0),
@@ -181,7 +188,10 @@ fn light(studio: &mut Studio, skeleton: &Skeleton) {
 }
 
 fn write_aov(aov: Aov, figures: &Figures, out: &Path, stem: &str) -> Result<PathBuf, String> {
-    let UVec2 { x: width, y: height } = figures.size();
+    let UVec2 {
+        x: width,
+        y: height,
+    } = figures.size();
     let channel = |value: &dyn Fn(Option<bevy_verdure::lab::SeenPixel>) -> f32| -> Vec<f32> {
         (0..height)
             .flat_map(|y| (0..width).map(move |x| (x, y)))
@@ -191,14 +201,22 @@ fn write_aov(aov: Aov, figures: &Figures, out: &Path, stem: &str) -> Result<Path
     let (name, channels): (_, Vec<(&str, Vec<f32>)>) = match aov {
         Aov::Depth => (
             "depth",
-            vec![("Z", channel(&|seen| seen.map_or(f32::INFINITY, |seen| seen.depth)))],
+            vec![(
+                "Z",
+                channel(&|seen| seen.map_or(f32::INFINITY, |seen| seen.depth)),
+            )],
         ),
         Aov::Normal => (
             "normal",
             ["X", "Y", "Z"]
                 .into_iter()
                 .enumerate()
-                .map(|(i, name)| (name, channel(&|seen| seen.map_or(0.0, |seen| seen.normal[i]))))
+                .map(|(i, name)| {
+                    (
+                        name,
+                        channel(&|seen| seen.map_or(0.0, |seen| seen.normal[i])),
+                    )
+                })
                 .collect(),
         ),
         Aov::Uv => (
@@ -211,7 +229,10 @@ fn write_aov(aov: Aov, figures: &Figures, out: &Path, stem: &str) -> Result<Path
         ),
         Aov::Segment => (
             "segment",
-            vec![("id", channel(&|seen| seen.map_or(-1.0, |seen| seen.segment as f32)))],
+            vec![(
+                "id",
+                channel(&|seen| seen.map_or(-1.0, |seen| seen.segment as f32)),
+            )],
         ),
     };
     let file = out.join(format!("{stem}.{name}.exr"));

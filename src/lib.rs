@@ -14,8 +14,8 @@ use bevy::prelude::*;
 /// What most games import.
 pub mod prelude {
     pub use crate::frusta::{
-        Ends, Frusta, FrustaExtension, FrustaMaterial, FrustaOutput, FrustaStats, Join, ShadingNormals,
-        frusta_material,
+        Ends, Frusta, FrustaExtension, FrustaMaterial, FrustaOutput, FrustaStats, Join,
+        ShadingNormals, frusta_material,
     };
     pub use crate::skeleton::{
         Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,

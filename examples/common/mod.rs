@@ -81,7 +81,11 @@ fn run_headless(
         let file = out.join(format!("{title}_{frame:03}.png"));
         picture.save_png(&file)?;
     }
-    println!("{} pictures in {}/{title}_*.png", args.frames, out.display());
+    println!(
+        "{} pictures in {}/{title}_*.png",
+        args.frames,
+        out.display()
+    );
     Ok(())
 }
 
@@ -147,7 +151,8 @@ fn orbit(
     if orbit.speed == 0.0 {
         return;
     }
-    let turn = Quat::from_rotation_y(orbit.speed / 60.0 * core::f32::consts::TAU * time.delta_secs());
+    let turn =
+        Quat::from_rotation_y(orbit.speed / 60.0 * core::f32::consts::TAU * time.delta_secs());
     for mut camera in &mut cameras {
         camera.rotate_around(orbit.centre, turn);
     }
@@ -215,7 +220,10 @@ pub fn texture(size: u32, srgb: bool, texel: impl Fn(f32, f32) -> [f32; 4]) -> I
     let mut level: Vec<[f32; 4]> = (0..size * size)
         .map(|i| {
             let (x, y) = (i % size, i / size);
-            texel((x as f32 + 0.5) / size as f32, (y as f32 + 0.5) / size as f32)
+            texel(
+                (x as f32 + 0.5) / size as f32,
+                (y as f32 + 0.5) / size as f32,
+            )
         })
         .collect();
     let mut data = Vec::new();

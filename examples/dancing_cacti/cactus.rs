@@ -49,7 +49,8 @@ pub fn body(segments: usize, dice: &mut Dice) -> Cactus {
     let base = plant.root(Vec3::ZERO, radius * 0.8);
     plant.texture_length(base, 0.3);
     // A saguaro is widest at two fifths of its height and rounded at the top.
-    let swell = |h: f32| radius * (0.8 + 0.35 * (h * 2.6).min(1.0) - 0.22 * ((h - 0.4) / 0.6).max(0.0));
+    let swell =
+        |h: f32| radius * (0.8 + 0.35 * (h * 2.6).min(1.0) - 0.22 * ((h - 0.4) / 0.6).max(0.0));
     let mut trunk = Vec::new();
     let mut last = base;
     for i in 1..=trunk_segments {
@@ -77,7 +78,11 @@ pub fn body(segments: usize, dice: &mut Dice) -> Cactus {
         let mut joints = Vec::new();
         let mut last = shoulder;
         for (along, up, thick) in path.into_iter().skip(side) {
-            last = plant.joint(last, from + out * (reach * along) + Vec3::Y * (rise * up), r * thick);
+            last = plant.joint(
+                last,
+                from + out * (reach * along) + Vec3::Y * (rise * up),
+                r * thick,
+            );
             joints.push(last);
         }
         joints

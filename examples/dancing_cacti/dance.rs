@@ -61,7 +61,10 @@ impl Dancer {
         let swing = |rate: f32, lag: f32| (TAU * (beat * rate + self.phase - lag)).sin();
         let side = match self.step {
             Step::Sway => Vec2::new(0.75 * swing(0.5, 0.12 * h), 0.12 * swing(1.0, 0.0)),
-            Step::Hula => Vec2::new(0.62 * swing(0.5, 0.2 * h), 0.62 * swing(0.5, 0.2 * h + 0.25)),
+            Step::Hula => Vec2::new(
+                0.62 * swing(0.5, 0.2 * h),
+                0.62 * swing(0.5, 0.2 * h + 0.25),
+            ),
             Step::Wave => Vec2::new(1.5 * (0.35 + h) * swing(0.5, 0.75 * h), 0.0),
             Step::Bow => Vec2::new(0.55 + 0.55 * swing(1.0, 0.1 * h), 0.15 * swing(0.25, 0.0)),
             Step::Signal => Vec2::new(0.4 * swing(0.5, 0.1 * h), 0.25 * swing(0.25, 0.1)),
@@ -92,20 +95,32 @@ pub fn dance(
 ) {
     let beat = time.elapsed_secs() * TEMPO / 60.0;
     for (dancer, entities, skeleton) in &dancers {
-        let Some(skeleton) = skeletons.get(&skeleton.0) else { continue };
+        let Some(skeleton) = skeletons.get(&skeleton.0) else {
+            continue;
+        };
         let share = 1.0 / dancer.trunk.len() as f32;
         for (i, joint) in dancer.trunk.iter().enumerate() {
             // The foot stands firm; each segment adds its share of the lean.
             let h = (i + 1) as f32 * share;
             let lean = dancer.lean(beat, h) * share * (0.25 + 1.5 * h).min(1.3);
-            turn(&mut segments, entities, *joint, Quat::from_scaled_axis(Vec3::new(lean.y, 0.0, -lean.x)));
+            turn(
+                &mut segments,
+                entities,
+                *joint,
+                Quat::from_scaled_axis(Vec3::new(lean.y, 0.0, -lean.x)),
+            );
         }
         for (side, arm) in dancer.arms.iter().enumerate() {
             let swing = dancer.arm(beat, side);
             let shoulder = skeleton.joints()[arm[0] as usize].position.with_y(0.0);
             let axis = shoulder.normalize_or(Vec3::X).cross(Vec3::Y);
             for joint in arm {
-                turn(&mut segments, entities, *joint, Quat::from_axis_angle(axis, swing));
+                turn(
+                    &mut segments,
+                    entities,
+                    *joint,
+                    Quat::from_axis_angle(axis, swing),
+                );
             }
         }
     }
@@ -117,7 +132,10 @@ fn turn(
     joint: u32,
     rotation: Quat,
 ) {
-    if let Some(mut segment) = entities.get(joint as usize).and_then(|entity| segments.get_mut(entity).ok()) {
+    if let Some(mut segment) = entities
+        .get(joint as usize)
+        .and_then(|entity| segments.get_mut(entity).ok())
+    {
         segment.rotation = rotation;
     }
 }

@@ -171,10 +171,16 @@ fn put_flowers_on(
     bare: Query<(Entity, &Dancer, &WearsFlower, &SegmentEntities, &Skeleton3d)>,
 ) {
     for (cactus, dancer, WearsFlower(crown), segments, skeleton) in &bare {
-        let Some(skeleton) = skeletons.get(&skeleton.0) else { continue };
+        let Some(skeleton) = skeletons.get(&skeleton.0) else {
+            continue;
+        };
         let joints = skeleton.joints();
-        let Some(&[.., below, top]) = dancer.trunk.get(..) else { continue };
-        let Some(segment) = segments.get(top as usize) else { continue };
+        let Some(&[.., below, top]) = dancer.trunk.get(..) else {
+            continue;
+        };
+        let Some(segment) = segments.get(top as usize) else {
+            continue;
+        };
         let along = joints[top as usize].position - joints[below as usize].position;
         commands.entity(cactus).remove::<WearsFlower>();
         commands.spawn((

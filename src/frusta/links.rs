@@ -38,8 +38,12 @@ impl LinkedSkeleton {
                 parent,
                 next,
                 continues,
+                branches: false,
                 twist: joint.twist,
             });
+            if parent != NONE && !continues {
+                linked.links[parent as usize].branches = true;
+            }
             linked.rest.push(PosedJoint {
                 position: joint.position,
                 radius: joint.radius,

@@ -1,8 +1,8 @@
 //! The material: Bevy's standard one, on a surface that is ray cast.
 
 use bevy::asset::{Asset, AssetPath};
-use bevy::ecs::system::lifetimeless::SRes;
 use bevy::ecs::system::SystemParamItem;
+use bevy::ecs::system::lifetimeless::SRes;
 use bevy::mesh::MeshVertexBufferLayoutRef;
 use bevy::pbr::{
     ExtendedMaterial, MaterialExtension, MaterialExtensionKey, MaterialExtensionPipeline,
@@ -146,7 +146,9 @@ impl AsBindGroup for FrustaExtension {
 
 /// Path of a shader of this folder.
 fn shader(name: &str) -> ShaderRef {
-    ShaderRef::Path(AssetPath::parse(&format!("embedded://bevy_verdure/frusta/shaders/{name}")).into_owned())
+    ShaderRef::Path(
+        AssetPath::parse(&format!("embedded://bevy_verdure/frusta/shaders/{name}")).into_owned(),
+    )
 }
 
 impl MaterialExtension for FrustaExtension {
@@ -185,11 +187,18 @@ impl MaterialExtension for FrustaExtension {
         layout: &MeshVertexBufferLayoutRef,
         key: MaterialExtensionKey<Self>,
     ) -> Result<(), SpecializedMeshPipelineError> {
-        descriptor.vertex.buffers =
-            vec![layout.0.get_layout(&[ATTRIBUTE_CORNER.at_shader_location(0)])?];
+        descriptor.vertex.buffers = vec![
+            layout
+                .0
+                .get_layout(&[ATTRIBUTE_CORNER.at_shader_location(0)])?,
+        ];
         // The far sides of the bounds are drawn, once a pixel, wherever the eye is.
         let mirrored_view = key.mesh_key.contains(MeshPipelineKey::INVERT_CULLING);
-        descriptor.primitive.cull_mode = Some(if mirrored_view { Face::Back } else { Face::Front });
+        descriptor.primitive.cull_mode = Some(if mirrored_view {
+            Face::Back
+        } else {
+            Face::Front
+        });
         let mut defs = Vec::new();
         let samples = descriptor.multisample.count;
         defs.push(ShaderDefVal::UInt("FRUSTA_SAMPLES".into(), samples));
@@ -204,7 +213,10 @@ impl MaterialExtension for FrustaExtension {
             2 => defs.push("FRUSTA_OUTPUT_NORMALS".into()),
             _ => {}
         }
-        if key.mesh_key.contains(MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO) {
+        if key
+            .mesh_key
+            .contains(MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO)
+        {
             defs.push("FRUSTA_UNCLIPPED_DEPTH".into());
         }
         if let Some(fragment) = &mut descriptor.fragment {

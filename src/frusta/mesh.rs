@@ -10,8 +10,11 @@ use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 
 /// Index of the segment times 8, plus the corner.
-pub(crate) const ATTRIBUTE_CORNER: MeshVertexAttribute =
-    MeshVertexAttribute::new("Vertex_Frusta_Corner", 0x5645_5244_5552_4501, VertexFormat::Uint32);
+pub(crate) const ATTRIBUTE_CORNER: MeshVertexAttribute = MeshVertexAttribute::new(
+    "Vertex_Frusta_Corner",
+    0x5645_5244_5552_4501,
+    VertexFormat::Uint32,
+);
 
 /// Corner indices of the twelve triangles, counter-clockwise from outside; bit 0 is the first side axis, bit 1
 /// the second, bit 2 the limb's axis.
@@ -32,9 +35,16 @@ pub(crate) struct FrustaMeshes {
 
 impl FrustaMeshes {
     /// The mesh for a plant of so many joints.
-    pub(crate) fn with_segments(&mut self, count: usize, meshes: &mut Assets<Mesh>) -> Handle<Mesh> {
+    pub(crate) fn with_segments(
+        &mut self,
+        count: usize,
+        meshes: &mut Assets<Mesh>,
+    ) -> Handle<Mesh> {
         let size = size_class(count);
-        let mesh = self.by_size.entry(size).or_insert_with(|| meshes.add(corners(size)));
+        let mesh = self
+            .by_size
+            .entry(size)
+            .or_insert_with(|| meshes.add(corners(size)));
         mesh.clone()
     }
 }
@@ -55,9 +65,12 @@ fn corners(segments: usize) -> Mesh {
     } else {
         Indices::U32(indices.collect())
     };
-    Mesh::new(PrimitiveTopology::TriangleList, RenderAssetUsages::RENDER_WORLD)
-        .with_inserted_attribute(ATTRIBUTE_CORNER, vertices)
-        .with_inserted_indices(indices)
+    Mesh::new(
+        PrimitiveTopology::TriangleList,
+        RenderAssetUsages::RENDER_WORLD,
+    )
+    .with_inserted_attribute(ATTRIBUTE_CORNER, vertices)
+    .with_inserted_indices(indices)
 }
 
 #[cfg(test)]
@@ -68,7 +81,10 @@ mod tests {
     fn a_mesh_has_room_for_its_plant_and_at_most_a_fifth_to_spare() {
         for count in 4..5000 {
             let size = size_class(count);
-            assert!(size >= count && (size - count) * 5 <= size, "{count} in {size}");
+            assert!(
+                size >= count && (size - count) * 5 <= size,
+                "{count} in {size}"
+            );
         }
     }
 

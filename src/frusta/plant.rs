@@ -72,7 +72,9 @@ impl OwnPose {
             }
         }
         self.skin(linked, settings, |i| {
-            let turned = pose.frame(i).map(|frame| frame.transform_vector3(linked.references[i]));
+            let turned = pose
+                .frame(i)
+                .map(|frame| frame.transform_vector3(linked.references[i]));
             turned.unwrap_or(linked.references[i])
         });
         let join = settings.skin().join;
@@ -103,7 +105,12 @@ impl OwnPose {
     }
 
     fn skin(&mut self, linked: &LinkedSkeleton, settings: Frusta, first: impl Fn(usize) -> Vec3) {
-        skin(&linked.links, &self.posed, settings.skin(), &mut self.frusta);
+        skin(
+            &linked.links,
+            &self.posed,
+            settings.skin(),
+            &mut self.frusta,
+        );
         align(&linked.links, &mut self.frusta, first);
     }
 }

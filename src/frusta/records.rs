@@ -120,5 +120,6 @@ fn octahedral(n: Vec3) -> u32 {
 }
 
 // `EndKind` goes to the shader as it is.
-const _: () = assert!(EndKind::Cut as u32 == 0 && EndKind::Round as u32 == 1 && EndKind::Flat as u32 == 2);
+const _: () =
+    assert!(EndKind::Cut as u32 == 0 && EndKind::Round as u32 == 1 && EndKind::Flat as u32 == 2);
 const _: () = assert!(size_of::<JointRecord>() == 64);

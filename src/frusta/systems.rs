@@ -153,9 +153,8 @@ pub(crate) fn collect(
             data.joints.write(plant.joints, &own.records);
         }
     }
-    stats.uploaded_bytes = data.joints.changed_bytes()
-        + data.shapes.changed_bytes()
-        + data.plants.changed_bytes();
+    stats.uploaded_bytes =
+        data.joints.changed_bytes() + data.shapes.changed_bytes() + data.plants.changed_bytes();
     // Buffers that have to grow are made anew, and with them the bind groups that name them.
     let lengths = [
         data.joints.rows().len(),

@@ -34,10 +34,17 @@ const LARGEST: u32 = 8192;
 /// Reads a size like `640x480`.
 pub fn parse_size(text: &str) -> Result<Size, String> {
     let parts = text.split_once(['x', 'X', '×']);
-    let side = |side: &str| side.trim().parse::<u32>().ok().filter(|&side| (1..=LARGEST).contains(&side));
+    let side = |side: &str| {
+        side.trim()
+            .parse::<u32>()
+            .ok()
+            .filter(|&side| (1..=LARGEST).contains(&side))
+    };
     parts
         .and_then(|(width, height)| Some(UVec2::new(side(width)?, side(height)?)))
-        .ok_or_else(|| format!("'{text}' is no size: write it like 640x480, each side 1 to {LARGEST}"))
+        .ok_or_else(|| {
+            format!("'{text}' is no size: write it like 640x480, each side 1 to {LARGEST}")
+        })
 }
 
 /// Reads a point like `1.5,0,-2`.

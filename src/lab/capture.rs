@@ -53,13 +53,16 @@ impl Pixels {
     pub fn rgb_bytes(&self) -> Vec<u8> {
         assert_eq!(self.format, TextureFormat::Rgba8UnormSrgb);
         let pixels = self.bytes.chunks_exact(4);
-        pixels.flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
+        pixels
+            .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+            .collect()
     }
 
     /// Writes a picture of colours as PNG.
     pub fn save_png(&self, path: &Path) -> Result<(), String> {
         let rgb = self.rgb_bytes();
-        let file = std::fs::File::create(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let file =
+            std::fs::File::create(path).map_err(|error| format!("{}: {error}", path.display()))?;
         let encoder = image::codecs::png::PngEncoder::new_with_quality(
             std::io::BufWriter::new(file),
             image::codecs::png::CompressionType::Best,

@@ -55,7 +55,10 @@ impl Headless {
                 ..default()
             })
             .set(LogPlugin {
-                filter: format!("{},bevy_render=warn,wgpu_hal=error", bevy::log::DEFAULT_FILTER),
+                filter: format!(
+                    "{},bevy_render=warn,wgpu_hal=error",
+                    bevy::log::DEFAULT_FILTER
+                ),
                 level: bevy::log::Level::WARN,
                 ..default()
             })

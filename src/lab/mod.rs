@@ -7,7 +7,7 @@ mod capture;
 mod compare;
 mod exr_file;
 mod headless;
-// pub mod reference;
+pub mod reference;
 mod studio;
 mod timing;
 

@@ -40,7 +40,11 @@ impl Shot {
     /// The camera's transform. Looking straight up or down, the picture's top is towards −z.
     pub fn transform(&self) -> Transform {
         let forward = (self.at - self.eye).normalize_or(Vec3::NEG_Z);
-        let up = if forward.y.abs() > 0.999 { Vec3::NEG_Z } else { Vec3::Y };
+        let up = if forward.y.abs() > 0.999 {
+            Vec3::NEG_Z
+        } else {
+            Vec3::Y
+        };
         Transform::from_translation(self.eye).looking_to(forward, up)
     }
 
@@ -78,7 +82,10 @@ impl Shot {
             }
             Lens::Orthographic(height) => {
                 let offset = Vec3::new(ndc.x * aspect, ndc.y, 0.0) * (0.5 * height);
-                (self.eye + camera.rotation * offset, camera.rotation * Vec3::NEG_Z)
+                (
+                    self.eye + camera.rotation * offset,
+                    camera.rotation * Vec3::NEG_Z,
+                )
             }
         }
     }
@@ -94,9 +101,10 @@ impl Shot {
                 (radius / (0.5 * narrow).sin(), lens)
             }
             Lens::Orthographic(height) if height > 0.0 => (radius * 2.0, lens),
-            Lens::Orthographic(_) => {
-                (radius * 2.0, Lens::Orthographic(2.0 * radius / aspect.min(1.0)))
-            }
+            Lens::Orthographic(_) => (
+                radius * 2.0,
+                Lens::Orthographic(2.0 * radius / aspect.min(1.0)),
+            ),
         };
         let direction = Vec3::new(0.35, 0.25, 1.0).normalize();
         Self {
@@ -210,7 +218,12 @@ impl Studio {
         let skeleton = world.resource_mut::<Assets<Skeleton>>().add(skeleton);
         let material = frusta_material(Color::srgb(0.45, 0.4, 0.33));
         let material = world.resource_mut::<Assets<FrustaMaterial>>().add(material);
-        let plant = (Skeleton3d(skeleton), settings, MeshMaterial3d(material), transform);
+        let plant = (
+            Skeleton3d(skeleton),
+            settings,
+            MeshMaterial3d(material),
+            transform,
+        );
         world.spawn(plant).id()
     }
 
@@ -234,7 +247,9 @@ impl Studio {
         let target = match &self.colours {
             Some((size, target)) if *size == shot.size => target.clone(),
             _ => {
-                let target = self.headless.target(shot.size, TextureFormat::Rgba8UnormSrgb);
+                let target = self
+                    .headless
+                    .target(shot.size, TextureFormat::Rgba8UnormSrgb);
                 self.colours = Some((shot.size, target.clone()));
                 target
             }
@@ -270,7 +285,10 @@ impl Studio {
 
     /// What all plants' materials write.
     pub fn set_output(&mut self, output: FrustaOutput) {
-        let mut materials = self.headless.world().resource_mut::<Assets<FrustaMaterial>>();
+        let mut materials = self
+            .headless
+            .world()
+            .resource_mut::<Assets<FrustaMaterial>>();
         for (_, material) in materials.iter_mut() {
             material.extension.output = output;
         }

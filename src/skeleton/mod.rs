@@ -32,6 +32,33 @@
 //! unless they are roots, the others where they differ. A last field `offset: (x, y, z)` beside `joints` is
 //! [`Skeleton::offset`].
 //!
+//! # `*.swc` files
+//!
+//! One sample a line, `id type x y z radius parent`, as R. C. Cannon et al. defined it (*An on-line archive
+//! of reconstructed hippocampal neurons*, Journal of Neuroscience Methods 84, 1998) and NeuroMorpho.Org
+//! uses it. Parent -1 is a root, and there may be several; lines come in any order, ids are any whole numbers,
+//! `#` starts a comment. The type and columns after the seventh are not read.
+//!
+//! # `*.csv` files
+//!
+//! One cylinder a row, as TreeQSM (P. Raumonen et al., *Fast automatic precision tree models from terrestrial
+//! laser scanner data*, Remote Sensing 5, 2013), SimpleForest and tools like them write it, separated by
+//! commas, semicolons or tabs. Columns are found by name, case, punctuation and units in brackets aside:
+//!
+//! | what | names |
+//! |---|---|
+//! | start | `start_x`, `start_y`, `start_z`; also `start_1`, `start_point_x`, `sx`; or `start_point` for three columns |
+//! | end, or | `end_x` and so on, in the same ways |
+//! | axis and length | `axis_x` and so on, `axis_direction`; `length` |
+//! | radius | `radius`, `r`; or `diameter`, which is halved |
+//! | parent | `parent`, `parent_id`, `parent_cylinder`; -1, 0, nothing and `NA` are none, but 0 is an id if a row has it |
+//! | id, if any | `id`, `cylinder_id`; without it parents are numbers of rows, counted from 1 |
+//!
+//! A cylinder's end becomes a joint of its radius. It grows from the end of the parent where its start is no
+//! further from there than the larger of both radii. Else, as where a branch leaves the side of a trunk, its
+//! start becomes a root: a segment from any joint of the parent would be wood that is not there. The cap of
+//! such a root is hidden in the parent, and a tree may have many of them.
+//!
 //! # The files here, in reading order
 //!
 //! `joint`, `skeleton` (what is promised), `order` (parents first), `builder`; `document` (RON), `swc`,

@@ -86,21 +86,23 @@ pub(crate) fn pose_from_rotations(
         )>,
     >,
 ) {
-    plants.par_iter_mut().for_each(|(skeleton, pose, mut posed)| {
-        let Some(skeleton) = skeletons.get(&skeleton.0) else {
-            return;
-        };
-        let joints = skeleton.joints();
-        posed.set(joints, |i| {
-            let rotation = pose.rotations.get(i).copied().unwrap_or_default();
-            let rotation = if rotation.is_finite() {
-                rotation
-            } else {
-                Quat::IDENTITY
+    plants
+        .par_iter_mut()
+        .for_each(|(skeleton, pose, mut posed)| {
+            let Some(skeleton) = skeletons.get(&skeleton.0) else {
+                return;
             };
-            Affine3A::from_rotation_translation(rotation, rest_translation(joints, i))
+            let joints = skeleton.joints();
+            posed.set(joints, |i| {
+                let rotation = pose.rotations.get(i).copied().unwrap_or_default();
+                let rotation = if rotation.is_finite() {
+                    rotation
+                } else {
+                    Quat::IDENTITY
+                };
+                Affine3A::from_rotation_translation(rotation, rest_translation(joints, i))
+            });
         });
-    });
 }
 
 #[cfg(test)]
@@ -124,11 +126,12 @@ mod tests {
             )
         });
         // A quarter turn to the left about (1, 0, 0); 4 roundings of numbers below 2.
-        for (position, expected) in posed.positions.iter().zip([
-            Vec3::X,
-            Vec3::ZERO,
-            Vec3::new(-1.0, 0.0, 0.0),
-        ]) {
+        for (position, expected) in
+            posed
+                .positions
+                .iter()
+                .zip([Vec3::X, Vec3::ZERO, Vec3::new(-1.0, 0.0, 0.0)])
+        {
             assert!(position.distance(expected) < 4.0 * 2.0 * f32::EPSILON);
         }
     }

@@ -126,8 +126,16 @@ impl Bounds {
 
     /// The direction of a corner's edge from the axis, √2 long.
     fn across(&self, corner: u32) -> Vec3 {
-        let u = if corner & 1 == 0 { -self.side } else { self.side };
-        let w = if corner & 2 == 0 { -self.other } else { self.other };
+        let u = if corner & 1 == 0 {
+            -self.side
+        } else {
+            self.side
+        };
+        let w = if corner & 2 == 0 {
+            -self.other
+        } else {
+            self.other
+        };
         u + w
     }
 
@@ -144,7 +152,11 @@ impl Bounds {
     /// The position of a corner, 0 to 7.
     pub fn corner(&self, corner: u32) -> Vec3 {
         let across = self.across(corner);
-        let plane = if corner & 4 == 0 { self.start } else { self.end };
+        let plane = if corner & 4 == 0 {
+            self.start
+        } else {
+            self.end
+        };
         let (y, _) = self.cut(across, plane);
         self.axis * y + across * (self.radius + self.slope * y).max(0.0)
     }

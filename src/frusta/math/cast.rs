@@ -133,7 +133,11 @@ fn cone_roots(p: Vec3, d: Vec3, dd: Real, frustum: &Frustum) -> (Real, Real) {
     }
     let root = discriminant.sqrt();
     let q = if b < 0.0 { root - b } else { -(b + root) };
-    let t1 = if a.abs() > ALONG * ALONG * dd { q / a } else { NO_ROOT };
+    let t1 = if a.abs() > ALONG * ALONG * dd {
+        q / a
+    } else {
+        NO_ROOT
+    };
     let t2 = if q != 0.0 { c / q } else { t1 };
     (t1.min(t2) + t_v, t1.max(t2) + t_v)
 }
@@ -143,13 +147,20 @@ fn cone_roots(p: Vec3, d: Vec3, dd: Real, frustum: &Frustum) -> (Real, Real) {
 fn on_frustum(point: Vec3, slack: Real, frustum: &Frustum) -> bool {
     frustum.radius + frustum.slope * point.dot(frustum.axis) > 0.0
         && frustum.start.normal.dot(point) - frustum.start.offset >= -slack
-        && frustum.end.normal.dot(point - frustum.axis * frustum.length) - frustum.end.offset
+        && frustum
+            .end
+            .normal
+            .dot(point - frustum.axis * frustum.length)
+            - frustum.end.offset
             <= slack
 }
 
 /// The first root with a cap, with t measured from `x`, which is relative to the cap's joint. The cap lies on the
 /// side ≥ of its plane.
-#[allow(clippy::too_many_arguments, reason = "term for term like the shader, which has no slices of structs")]
+#[allow(
+    clippy::too_many_arguments,
+    reason = "term for term like the shader, which has no slices of structs"
+)]
 fn cap_root(
     x: Vec3,
     d: Vec3,

@@ -43,6 +43,8 @@ pub struct Link {
     pub next: u32,
     /// True when this segment continues its parent's limb (or begins a root's); false when it branches off.
     pub continues: bool,
+    /// True when further segments branch off at the joint.
+    pub branches: bool,
     /// Twist of the texture along the segment, θ in §2.3, in radians.
     pub twist: Real,
 }
@@ -80,6 +82,9 @@ const FOLD: Real = 1e-4;
 const ELLIPSE: Real = 1e-4;
 /// Share of a segment that must be left between its two ends.
 const SPACING: Real = 1e-4;
+/// How far a mitre may reach past its joint on the outside of a bend, in radii of the joint. Where cones widen
+/// towards a joint the outside grows without bound as the bend nears the last one that has an ellipse.
+const SPIKE: Real = 4.0;
 
 /// The plane in which two cones meet that touch a sphere of `radius` about the joint, or `None` at a fold.
 #[inline]
@@ -129,7 +134,7 @@ pub fn cut_extent(
 pub fn skin(links: &[Link], joints: &[PosedJoint], skin: Skin, frusta: &mut [Frustum]) {
     assert!(links.len() == joints.len() && joints.len() == frusta.len());
     for i in 0..links.len() {
-        frusta[i] = round_frustum(i, links, joints, skin);
+        frusta[i] = round_frustum(i, links, joints, skin.join);
     }
     match skin.join {
         JoinKind::Round => {}
@@ -154,6 +159,49 @@ pub fn skin(links: &[Link], joints: &[PosedJoint], skin: Skin, frusta: &mut [Fru
             }
         }
     }
+    if skin.ends == EndKind::Flat {
+        for i in 0..links.len() {
+            flatten_ends(i, links, skin.join, frusta);
+        }
+    }
+}
+
+/// Closes the free ends of a segment with discs, where a disc can close them: not where a sibling starts, half
+/// below the disc, nor where the sphere of the segment's other joint, or its contact circle, reaches through it.
+fn flatten_ends(i: usize, links: &[Link], join: JoinKind, frusta: &mut [Frustum]) {
+    let link = links[i];
+    if link.parent == NONE || !frusta[i].has_cone() {
+        return;
+    }
+    let parent = &links[link.parent as usize];
+    let begins_root = parent.parent == NONE && link.continues;
+    let after_mitre = parent.parent != NONE
+        && link.continues
+        && frusta[link.parent as usize].end.kind == EndKind::Cut;
+    let any = matches!(join, JoinKind::Paper | JoinKind::PaperIterated);
+    let frustum = &mut frusta[i];
+    let room = frustum.length * (1.0 - SPACING);
+    let alone = !link.branches && (link.next == NONE || frustum.end.kind == EndKind::Cut);
+    if begins_root && (any || !parent.branches && (alone || frustum.end.radius <= room)) {
+        flatten(&mut frustum.start);
+    }
+    if link.next == NONE {
+        let clear = if link.continues {
+            !parent.branches && (begins_root || after_mitre) || frustum.start.radius <= room
+        } else {
+            frustum.start.radius * frustum.cone().sine() <= room
+        };
+        if any || clear {
+            flatten(&mut frustum.end);
+        }
+    }
+}
+
+/// Closes an end with a disc through its joint.
+fn flatten(end: &mut End) {
+    end.kind = EndKind::Flat;
+    end.offset = 0.0;
+    end.reach = 0.0;
 }
 
 /// The joins of a skeleton: pairs of a segment and the one that continues its limb.
@@ -166,7 +214,7 @@ fn joins(links: &[Link]) -> impl Iterator<Item = (usize, usize)> + '_ {
 
 /// The frustum of segment `i` as if every join were round.
 #[inline]
-fn round_frustum(i: usize, links: &[Link], joints: &[PosedJoint], skin: Skin) -> Frustum {
+fn round_frustum(i: usize, links: &[Link], joints: &[PosedJoint], join: JoinKind) -> Frustum {
     let link = links[i];
     if link.parent == NONE {
         return Frustum {
@@ -187,7 +235,7 @@ fn round_frustum(i: usize, links: &[Link], joints: &[PosedJoint], skin: Skin) ->
     };
     let across = to.position - from.position;
     let length = across.length();
-    let paper = matches!(skin.join, JoinKind::Paper | JoinKind::PaperIterated);
+    let paper = matches!(join, JoinKind::Paper | JoinKind::PaperIterated);
     let mut frustum = Frustum {
         base: from.position,
         length,
@@ -211,13 +259,9 @@ fn round_frustum(i: usize, links: &[Link], joints: &[PosedJoint], skin: Skin) ->
         return lone_sphere(frustum, across, begins_root);
     }
     if begins_root {
-        close(&mut frustum.start, skin.ends);
+        frustum.start.kind = EndKind::Round;
     }
-    if link.next == NONE {
-        close(&mut frustum.end, skin.ends);
-    } else {
-        frustum.end.kind = EndKind::Round;
-    }
+    frustum.end.kind = EndKind::Round;
     frustum
 }
 
@@ -227,16 +271,6 @@ fn set_contact(end: &mut End, axis: Vec3, sine: Real, inward: Real) {
     end.normal = axis;
     end.offset = end.radius * sine;
     end.reach = (end.offset * inward).max(0.0);
-}
-
-/// Closes a free end.
-#[inline]
-fn close(end: &mut End, kind: EndKind) {
-    end.kind = kind;
-    if kind == EndKind::Flat {
-        end.offset = 0.0;
-        end.reach = 0.0;
-    }
 }
 
 /// A segment of which one sphere contains the other is the larger sphere. Where that is the sphere at its
@@ -268,17 +302,21 @@ fn mitre(first: usize, second: usize, radius: Real, frusta: &mut [Frustum]) {
         return;
     };
     let at_joint = f1.cone().radius_at(f1.length);
-    let Some((nearest, _)) = cut_extent(f1.axis, at_joint, f1.slope, &plane) else {
+    let Some((near1, far1)) = cut_extent(f1.axis, at_joint, f1.slope, &plane) else {
         return;
     };
-    let Some((_, farthest)) = cut_extent(f2.axis, f2.radius, f2.slope, &plane) else {
+    let Some((far2, near2)) = cut_extent(f2.axis, f2.radius, f2.slope, &plane) else {
         return;
     };
-    set_cut(&mut frusta[first].end, &plane, -nearest);
-    set_cut(&mut frusta[second].start, &plane, farthest);
+    if far1.max(-far2) > SPIKE * radius {
+        return;
+    }
+    set_cut(&mut frusta[first].end, &plane, -near1);
+    set_cut(&mut frusta[second].start, &plane, near2);
 }
 
-/// Opens an end at a cutting plane.
+/// Opens an end at a cutting plane. Its reach is the further of the plane's and that of the contact circle, which
+/// it falls back to should the other segment have no room for the mitre.
 #[inline]
 fn set_cut(end: &mut End, plane: &CuttingPlane, reach: Real) {
     end.normal = plane.normal;

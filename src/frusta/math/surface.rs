@@ -71,8 +71,7 @@ pub fn surface_point(
             let v = ((y - y_l) / (y_u - y_l)).clamp(0.0, 1.0);
             let normal = match normals {
                 Normals::Continuous => {
-                    let n_l = axis * y_l
-                        + across * (frustum.radius + frustum.slope * y_l);
+                    let n_l = axis * y_l + across * (frustum.radius + frustum.slope * y_l);
                     let n_u = axis * (y_u - frustum.length)
                         + across * (frustum.radius + frustum.slope * y_u);
                     n_l.normalize_or(across) * (1.0 - v) + n_u.normalize_or(across) * v

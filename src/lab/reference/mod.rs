@@ -94,7 +94,7 @@ pub struct ReferenceSettings {
 }
 
 /// What [`ReferenceJoin::Mitre`] and [`ReferenceEnds::Flat`] are refused for, beyond the mitre limit
-/// itself. The default refuses nothing more.
+/// itself. The default refuses all that leaves a hole or a spike, as the crate does.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReferenceGuards {
     /// A mitre that is proposed at one end of a segment counts, in the decision on the other end,
@@ -115,9 +115,9 @@ pub struct ReferenceGuards {
 impl Default for ReferenceGuards {
     fn default() -> Self {
         Self {
-            fallback: false,
-            spike: f64::INFINITY,
-            flat: false,
+            fallback: true,
+            spike: 4.0,
+            flat: true,
         }
     }
 }

@@ -18,6 +18,13 @@ const CHAIN: Growth = Growth {
     folded: 0.02,
 };
 
+/// Refuses nothing beyond the mitre limit itself.
+const LITERAL: ReferenceGuards = ReferenceGuards {
+    fallback: false,
+    spike: f64::INFINITY,
+    flat: false,
+};
+
 /// How many of `rays` from outside see an inner side first, by more than grazing.
 fn leaks(
     rng: &mut SplitMix64,
@@ -88,7 +95,7 @@ fn flat_ends_are_closed_where_the_guard_allows_them() {
         for join in [ReferenceJoin::Mitre, ReferenceJoin::Round] {
             let settings = settings(join, ReferenceEnds::Flat);
             assert_eq!(leaking(seed, growth, settings, GUARDED, 1500), 0);
-            let open = leaking(seed, growth, settings, ReferenceGuards::default(), 1500);
+            let open = leaking(seed, growth, settings, LITERAL, 1500);
             assert!(open > 0, "the guard has nothing to do");
         }
     }
@@ -117,7 +124,7 @@ fn a_refused_mitre_must_not_cut_the_one_that_stands() {
         joint(DVec3::new(0.141136, -1.112201, -2.303480), 0.8507, Some(2)),
     ];
     let settings = ReferenceSettings::default();
-    let literal = ReferenceScene::new(&joints, settings);
+    let literal = ReferenceScene::guarded(&joints, settings, LITERAL);
     assert!(overlaps(&literal));
     let mut rng = SplitMix64(45);
     let holes = leaks(&mut rng, &joints, &literal, 100_000);
@@ -135,7 +142,9 @@ fn guarded_cuts_leave_a_whole_ring_of_every_cone() {
     for _ in 0..200_000 {
         let joints = growth.grow(&mut rng);
         let settings = ReferenceSettings::default();
-        literal += usize::from(overlaps(&ReferenceScene::new(&joints, settings)));
+        literal += usize::from(overlaps(&ReferenceScene::guarded(
+            &joints, settings, LITERAL,
+        )));
         let scene = ReferenceScene::guarded(&joints, settings, GUARDED);
         guarded += usize::from(overlaps(&scene));
     }
@@ -163,7 +172,7 @@ fn without_a_guard_a_mitre_may_reach_far_past_its_joint() {
             _ => panic!("no cone"),
         }
     };
-    let (kind, radii) = past_joint(ReferenceGuards::default());
+    let (kind, radii) = past_joint(LITERAL);
     assert!(kind == EndKind::Mitre && radii > 50.0, "{kind:?} {radii}");
     assert_eq!(past_joint(GUARDED).0, EndKind::Round);
 }
