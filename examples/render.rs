@@ -1,7 +1,7 @@
 //! Renders any plant file without a window: colour as PNG, what else is asked for as EXR.
 //!
 //! ```text
-//! cargo run --features lab --example render -- PLANT.swc --size 800x600 --out out --aov depth,normal
+//! cargo run --example render -- PLANT.swc --size 800x600 --out out --aov depth,normal
 //! ```
 
 use std::path::{Path, PathBuf};

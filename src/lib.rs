@@ -1,5 +1,17 @@
-//! Vegetation for Bevy, drawn without modelling more than a scene needs.
-#![doc = ""]
+#![doc = include_str!("../README.md")]
+//!
+//! # Map of the crate
+//!
+//! | folder | what it is | reads |
+//! |---|---|---|
+//! | [`skeleton`] | joints, segments, poses; files; what a plant is before it has a surface | |
+//! | [`frusta`] | solid parts: a cone round each segment, ray cast per pixel | `skeleton` |
+//! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
+//!
+//! Arrows run one way: methods know `skeleton` at most and never each other, and nothing knows `lab`. Each folder's
+//! module page tells its algorithm, with its sources; read it from top to bottom, then the files it names.
+//!
+//! A frame's work is ordered by [`VerdureSystems`], whose sets are public.
 #![warn(missing_docs)]
 
 pub mod frusta;

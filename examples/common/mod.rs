@@ -2,7 +2,6 @@
 
 use std::time::{Duration, Instant};
 
-use bevy::camera::RenderTarget;
 use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraPlugin};
 use bevy::image::{ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
 use bevy::prelude::*;
@@ -72,7 +71,7 @@ fn run_headless(
         headless.step();
     }
     if let Some(file) = &args.stats {
-        let stats = measure(&mut headless, args, &target);
+        let stats = measure(&mut headless, args);
         stats.save(file)?;
         println!("{}", file.display());
     }
@@ -90,7 +89,7 @@ fn run_headless(
 }
 
 /// Times frames with and without plants, in turns.
-fn measure(headless: &mut Headless, args: &CommonArgs, _: &RenderTarget) -> FrameStats {
+fn measure(headless: &mut Headless, args: &CommonArgs) -> FrameStats {
     let mut times = [Vec::new(), Vec::new()];
     let mut cutting_planes = Vec::new();
     let mut uploaded = Vec::new();
@@ -132,7 +131,8 @@ fn measure(headless: &mut Headless, args: &CommonArgs, _: &RenderTarget) -> Fram
     }
 }
 
-/// A camera that flies with WASD, E, Q and the mouse, and circles until it is first moved; O starts it again.
+/// A camera that circles, until a key of flight or the left mouse button takes it over; O gives it back. It flies with
+/// WASD, E, Q and the mouse.
 pub fn camera(eye: Vec3, at: Vec3) -> impl Bundle {
     (
         MainCamera,
@@ -216,11 +216,11 @@ fn write_overlay(
 
 /// A texture that repeats, with all its mip levels, from a function of u and v in 0..1. `srgb` tells colours from
 /// other data; normals are renormalised by the shader.
-pub fn texture(size: u32, srgb: bool, texel: impl Fn(f32, f32) -> [f32; 4]) -> Image {
+pub fn texture(size: u32, srgb: bool, pixel: impl Fn(f32, f32) -> [f32; 4]) -> Image {
     let mut level: Vec<[f32; 4]> = (0..size * size)
         .map(|i| {
             let (x, y) = (i % size, i / size);
-            texel(
+            pixel(
                 (x as f32 + 0.5) / size as f32,
                 (y as f32 + 0.5) / size as f32,
             )
@@ -229,8 +229,8 @@ pub fn texture(size: u32, srgb: bool, texel: impl Fn(f32, f32) -> [f32; 4]) -> I
     let mut data = Vec::new();
     let mut side = size as usize;
     loop {
-        let encode = |pixel: &[f32; 4]| -> [u8; 4] {
-            let [r, g, b, a] = *pixel;
+        let encode = |value: &[f32; 4]| -> [u8; 4] {
+            let [r, g, b, a] = *value;
             if srgb {
                 Srgba::from(LinearRgba::new(r, g, b, a)).to_u8_array()
             } else {

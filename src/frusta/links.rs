@@ -3,8 +3,9 @@
 use bevy::math::Vec3;
 
 use super::records::ShapeRecord;
-use super::single::join::{Link, NONE, PosedJoint};
-use crate::skeleton::{Skeleton, continuations};
+use super::single::join::{Link, PosedJoint};
+use super::single::links::{joints_at_rest, links};
+use crate::skeleton::Skeleton;
 
 /// Length covered by one repeat of the texture where neither a joint nor its ancestors say otherwise, in metres.
 const TEXTURE_LENGTH: f32 = 1.0;
@@ -24,55 +25,37 @@ pub(crate) struct LinkedSkeleton {
 impl LinkedSkeleton {
     pub(crate) fn new(skeleton: &Skeleton) -> Self {
         let joints = skeleton.joints();
-        let continuations = continuations(joints);
-        let mut linked = Self::default();
+        let links = links(skeleton);
+        let mut shapes: Vec<ShapeRecord> = Vec::with_capacity(joints.len());
+        let mut references = Vec::with_capacity(joints.len());
         let mut texture_lengths = Vec::with_capacity(joints.len());
-        for (i, joint) in joints.iter().enumerate() {
-            let next = continuations[i].unwrap_or(NONE);
-            let (parent, continues) = match joint.parent {
-                Some(parent) => (parent, continuations[parent as usize] == Some(i as u32)),
-                None => (NONE, true),
-            };
-            linked.segments += usize::from(joint.parent.is_some());
-            linked.links.push(Link {
-                parent,
-                next,
-                continues,
-                branches: false,
-                twist: joint.twist,
-            });
-            if parent != NONE && !continues {
-                linked.links[parent as usize].branches = true;
-            }
-            linked.rest.push(PosedJoint {
-                position: joint.position,
-                radius: joint.radius,
-            });
-            let inherited = match joint.parent {
-                Some(parent) => texture_lengths[parent as usize],
-                None => TEXTURE_LENGTH,
-            };
+        for (joint, link) in joints.iter().zip(&links) {
+            let parent = joint.parent.map(|parent| parent as usize);
+            let inherited = parent.map_or(TEXTURE_LENGTH, |parent| texture_lengths[parent]);
             let texture_length = joint.texture_length.unwrap_or(inherited);
             texture_lengths.push(texture_length);
             // v runs on from the parent's segment; a limb's starts at 0.
-            let (length, v_start, reference) = match joint.parent {
-                Some(parent) => {
-                    let along = joint.position - joints[parent as usize].position;
-                    let v: f32 = linked.shapes[parent as usize].v_end;
-                    (along.length(), v, across(along))
-                }
-                None => (0.0, 0.0, Vec3::ZERO),
-            };
-            linked.references.push(reference);
-            linked.shapes.push(ShapeRecord {
-                parent,
-                next,
+            let along = parent.map_or(Vec3::ZERO, |parent| {
+                joint.position - joints[parent].position
+            });
+            let v_start = parent.map_or(0.0, |parent| shapes[parent].v_end);
+            references.push(across(along));
+            shapes.push(ShapeRecord {
+                parent: link.parent,
+                next: link.next,
                 v_start,
-                v_end: v_start + length / texture_length,
+                v_end: v_start + along.length() / texture_length,
                 twist: joint.twist,
+                radius: joint.radius,
             });
         }
-        linked
+        Self {
+            rest: joints_at_rest(skeleton),
+            segments: skeleton.segment_count(),
+            links,
+            shapes,
+            references,
+        }
     }
 }
 

@@ -11,7 +11,7 @@
 //! 2. For plants that moved, cones and cutting planes are recomputed (`math/cone.rs`, `math/join.rs`), textures are lined up
 //!    from segment to segment (`math/surface.rs`), and all of it is packed into 64 bytes a joint (`records.rs`).
 //! 3. Their bounds are recomputed for culling (`extent.rs`), and what changed is written to the GPU (`table.rs`,
-//!    `buffers.rs`). Plants that stand as their skeleton does share one copy and cost nothing.
+//!    `buffers.rs`). Plants that stand as their skeleton does share one copy: nothing is recomputed or written for them.
 //! 4. Bevy draws plants as instances of a mesh without positions (`mesh.rs`), with a material that extends the standard
 //!    one (`material.rs`). The vertex shader places the bounds (`math/bounds.rs`), the fragment shaders cast the ray
 //!    (`math/cast.rs`) and shade the hit: one file each for the main pass, the prepasses and shadow maps, and deferred

@@ -1,5 +1,6 @@
 //! What the frusta keep of a plant that is drawn.
 
+use core::ops::Range;
 use std::sync::Arc;
 
 use bevy::camera::primitives::Aabb;
@@ -26,6 +27,8 @@ pub(crate) struct FrustaPlant {
     /// The plant's row, which its `MeshTag` names.
     pub slot: Rows,
     pub joints: Rows,
+    /// The bounds with which it was attached.
+    pub bounds: Aabb,
     /// The plant's own pose; `None` while it stands as its skeleton does and shares its joints.
     pub own: Option<OwnPose>,
 }
@@ -36,8 +39,8 @@ pub(crate) struct OwnPose {
     frusta: Vec<Frustum>,
     pub records: Vec<JointRecord>,
     pub bounds: Aabb,
-    /// The records differ from those on the GPU.
-    pub changed: bool,
+    /// Ranges of records that differ from those on the GPU.
+    pub changed: Vec<Range<usize>>,
     /// Some joint was elsewhere in the frame before.
     moving: bool,
 }
@@ -50,15 +53,16 @@ impl OwnPose {
             frusta: vec![Frustum::default(); linked.links.len()],
             records: Vec::with_capacity(linked.links.len()),
             bounds: Aabb::default(),
-            changed: true,
+            changed: Vec::new(),
             moving: false,
         };
         pose.skin(linked, settings, |i| linked.references[i]);
         let joints = pose.posed.iter().zip(&pose.frusta);
         pose.records.extend(joints.map(|(joint, frustum)| {
             let join = settings.skin().join;
-            JointRecord::new(joint.position, joint.radius, frustum, join, None)
+            JointRecord::new(joint.position, frustum, join, None)
         }));
+        pose.changed.push(0..pose.records.len());
         pose.measure();
         pose
     }
@@ -78,12 +82,12 @@ impl OwnPose {
             turned.unwrap_or(linked.references[i])
         });
         let join = settings.skin().join;
+        self.changed.clear();
         for (i, record) in self.records.iter_mut().enumerate() {
-            let joint = self.posed[i];
-            let frustum = &self.frusta[i];
-            *record = JointRecord::new(joint.position, joint.radius, frustum, join, Some(record));
+            let position = self.posed[i].position;
+            let new = JointRecord::new(position, &self.frusta[i], join, Some(record));
+            note_change(&mut self.changed, i, record, new);
         }
-        self.changed = true;
         self.moving = true;
     }
 
@@ -93,9 +97,9 @@ impl OwnPose {
             return;
         }
         self.moving = false;
-        for record in &mut self.records {
-            self.changed |= record.is_moving();
-            record.settle();
+        for (i, record) in self.records.iter_mut().enumerate() {
+            let new = record.settled();
+            note_change(&mut self.changed, i, record, new);
         }
     }
 
@@ -112,5 +116,22 @@ impl OwnPose {
             &mut self.frusta,
         );
         align(&linked.links, &mut self.frusta, first);
+    }
+}
+
+/// Replaces a record, noting it if that changes anything.
+fn note_change(
+    changed: &mut Vec<Range<usize>>,
+    i: usize,
+    record: &mut JointRecord,
+    new: JointRecord,
+) {
+    if *record == new {
+        return;
+    }
+    *record = new;
+    match changed.last_mut() {
+        Some(last) if last.end == i => last.end = i + 1,
+        _ => changed.push(i..i + 1),
     }
 }

@@ -14,8 +14,6 @@ use super::single::join::JoinKind;
 #[repr(C)]
 pub(crate) struct JointRecord {
     position: [f32; 3],
-    /// Radius of the joint's sphere.
-    radius: f32,
     /// The plane at the segment's start: unit normal, and offset from the parent's joint.
     plane_normal: [f32; 3],
     plane_offset: f32,
@@ -38,11 +36,10 @@ const WHOLE_SPHERE: u32 = 1 << 4;
 const PAPER: u32 = 1 << 5;
 
 impl JointRecord {
-    /// The record of a joint at `position` with a sphere of `radius`, ending the segment of `frustum`.
-    /// `previous` is its record of the frame before, or `None` for one that stood still.
+    /// The record of a joint at `position` that ends the segment of `frustum`. `previous` is its record of the frame
+    /// before, or `None` for one that stood still.
     pub(crate) fn new(
         position: Vec3,
-        radius: f32,
         frustum: &Frustum,
         join: JoinKind,
         previous: Option<&JointRecord>,
@@ -57,7 +54,6 @@ impl JointRecord {
         let reference = octahedral(frustum.reference);
         Self {
             position,
-            radius,
             plane_normal: frustum.start.normal.to_array(),
             plane_offset: frustum.start.offset,
             previous_position: previous.map_or(position, |record| record.position),
@@ -69,15 +65,13 @@ impl JointRecord {
         }
     }
 
-    /// Makes the joint stand still.
-    pub(crate) fn settle(&mut self) {
-        self.previous_position = self.position;
-        self.previous_reference = self.reference;
-    }
-
-    /// True if the joint was elsewhere in the frame before.
-    pub(crate) fn is_moving(&self) -> bool {
-        self.previous_position != self.position || self.previous_reference != self.reference
+    /// The same joint, standing still.
+    pub(crate) fn settled(&self) -> Self {
+        Self {
+            previous_position: self.position,
+            previous_reference: self.reference,
+            ..*self
+        }
     }
 }
 
@@ -94,6 +88,8 @@ pub(crate) struct ShapeRecord {
     pub v_end: f32,
     /// Twist along the segment, in radians.
     pub twist: f32,
+    /// Radius of the joint's sphere.
+    pub radius: f32,
 }
 
 /// Where a plant's records are.
@@ -122,4 +118,4 @@ fn octahedral(n: Vec3) -> u32 {
 // `EndKind` goes to the shader as it is.
 const _: () =
     assert!(EndKind::Cut as u32 == 0 && EndKind::Round as u32 == 1 && EndKind::Flat as u32 == 2);
-const _: () = assert!(size_of::<JointRecord>() == 64);
+const _: () = assert!(size_of::<JointRecord>() == 60);

@@ -79,15 +79,14 @@ impl FrustaData {
         }
     }
 
-    /// Gives a plant its place in the tables, with the bounds it has at rest. `None`, with an error in the log,
-    /// when there is no room.
+    /// Gives a plant its place in the tables. `None`, with an error in the log, when there is no room.
     pub(crate) fn attach(
         &mut self,
         id: AssetId<Skeleton>,
         skeleton: &Skeleton,
         settings: Frusta,
         posed: bool,
-    ) -> Option<(FrustaPlant, Aabb)> {
+    ) -> Option<FrustaPlant> {
         let key = self.key(id);
         let (linked, first_shape) = self.share_skeleton(key, skeleton)?;
         let (joints, bounds, own) = if posed {
@@ -120,16 +119,16 @@ impl FrustaData {
             joint_count: linked.links.len() as u32,
             unused: 0,
         };
-        self.plants.write(slot, &[record]);
-        let plant = FrustaPlant {
+        self.plants.write(slot, 0, &[record]);
+        Some(FrustaPlant {
             skeleton: key,
             settings,
             linked,
             slot,
             joints,
+            bounds,
             own,
-        };
-        Some((plant, bounds))
+        })
     }
 
     /// Gives back what a plant had.
@@ -153,7 +152,7 @@ impl FrustaData {
         }
         let linked = Arc::new(LinkedSkeleton::new(skeleton));
         let shapes = self.shapes.allocate(linked.shapes.len())?;
-        self.shapes.write(shapes, &linked.shapes);
+        self.shapes.write(shapes, 0, &linked.shapes);
         let shared = SharedSkeleton {
             linked: linked.clone(),
             shapes,
@@ -175,7 +174,7 @@ impl FrustaData {
         }
         let stance = OwnPose::at_rest(linked, settings);
         let joints = self.joints.allocate(stance.records.len())?;
-        self.joints.write(joints, &stance.records);
+        self.joints.write(joints, 0, &stance.records);
         let shared = SharedStance {
             joints,
             bounds: stance.bounds,

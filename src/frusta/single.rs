@@ -18,6 +18,8 @@ pub mod cast;
 pub mod cone;
 #[path = "math/join.rs"]
 pub mod join;
+#[path = "math/links.rs"]
+pub mod links;
 #[path = "math/paper.rs"]
 pub mod paper;
 #[path = "math/surface.rs"]

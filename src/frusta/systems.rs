@@ -47,7 +47,12 @@ pub(crate) fn attach(
     mut data: ResMut<FrustaData>,
     mut unposed: RemovedComponents<PosedJoints>,
     changed: Query<Entity, (With<Skeleton3d>, Unattached)>,
-    plants: Query<(&Skeleton3d, &Frusta, Has<PosedJoints>, Option<&FrustaPlant>)>,
+    plants: Query<(
+        &Skeleton3d,
+        &Frusta,
+        Option<&PosedJoints>,
+        Option<&FrustaPlant>,
+    )>,
 ) {
     for entity in changed.iter().chain(unposed.read()) {
         let Ok((skeleton3d, settings, posed, plant)) = plants.get(entity) else {
@@ -60,14 +65,26 @@ pub(crate) fn attach(
         if let Some(plant) = plant {
             let same = plant.skeleton == data.key(id)
                 && plant.settings == *settings
-                && plant.own.is_some() == posed;
+                && plant.own.is_some() == posed.is_some();
             if same {
                 continue;
             }
         }
-        let Some((plant, bounds)) = data.attach(id, skeleton, *settings, posed) else {
+        let Some(mut plant) = data.attach(id, skeleton, *settings, posed.is_some()) else {
             continue;
         };
+        // One that was bent before goes on where it was, instead of from rest.
+        if let (Some(own), Some(posed)) = (&mut plant.own, posed)
+            && posed.positions().len() == plant.linked.links.len()
+        {
+            own.follow(&plant.linked, plant.settings, posed);
+            own.settle();
+            own.changed.clear();
+            own.changed.push(0..own.records.len());
+            own.measure();
+            plant.bounds = own.bounds;
+        }
+        let bounds = plant.bounds;
         let mesh = meshes.with_segments(plant.linked.links.len(), &mut mesh_assets);
         // Inserting the new component drops the old one, which gives its rows back.
         commands.entity(entity).try_insert((
@@ -122,7 +139,7 @@ pub(crate) fn update_bounds(mut plants: Query<(&mut FrustaPlant, &mut Aabb)>) {
     plants.par_iter_mut().for_each(|(mut plant, mut aabb)| {
         let plant = plant.bypass_change_detection();
         let Some(own) = &mut plant.own else { return };
-        if own.changed {
+        if !own.changed.is_empty() {
             own.measure();
             aabb.set_if_neq(own.bounds);
         }
@@ -145,12 +162,12 @@ pub(crate) fn collect(
         let plant = plant.bypass_change_detection();
         stats.plants += 1;
         stats.segments += plant.linked.segments;
-        if let Some(own) = &mut plant.own
-            && own.changed
-        {
-            own.changed = false;
-            stats.moved_joints += own.records.len();
-            data.joints.write(plant.joints, &own.records);
+        if let Some(own) = &mut plant.own {
+            for range in own.changed.drain(..) {
+                stats.moved_joints += range.len();
+                data.joints
+                    .write(plant.joints, range.start, &own.records[range]);
+            }
         }
     }
     stats.uploaded_bytes =

@@ -11,6 +11,8 @@ pub(crate) struct Table<T> {
     rows: Vec<T>,
     allocator: Allocator,
     changed: Vec<Range<usize>>,
+    /// Bytes saved since the changes were cleared, that may be spent on closing gaps between them.
+    credit: usize,
     name: &'static str,
 }
 
@@ -32,6 +34,9 @@ impl Rows {
 /// offers, holds of the largest record.
 const CAPACITY: u32 = (128 << 20) / 64;
 
+/// Bytes that may be uploaded for a row that changed.
+const ALLOWANCE: usize = 64;
+
 impl<T: Pod> Table<T> {
     /// An empty table; `name` is for messages.
     pub(crate) fn new(name: &'static str) -> Self {
@@ -39,6 +44,7 @@ impl<T: Pod> Table<T> {
             rows: Vec::new(),
             allocator: Allocator::new(CAPACITY),
             changed: Vec::new(),
+            credit: 0,
             name,
         }
     }
@@ -67,15 +73,27 @@ impl<T: Pod> Table<T> {
         self.allocator.free(rows.allocation);
     }
 
-    /// Writes rows, which must be as many as were taken, and marks them changed.
-    pub(crate) fn write(&mut self, rows: Rows, content: &[T]) {
-        let start = rows.first() as usize;
-        let end = start + content.len().min(rows.len as usize);
+    /// Writes `content` over the rows from the `offset`th on, as far as they go, and marks them changed.
+    ///
+    /// Ranges that nearly touch are uploaded as one, as long as all changes together stay below
+    /// [`ALLOWANCE`] bytes a row.
+    pub(crate) fn write(&mut self, rows: Rows, offset: usize, content: &[T]) {
+        let start = rows.first() as usize + offset;
+        let end = start
+            + content
+                .len()
+                .min((rows.len as usize).saturating_sub(offset));
         self.rows[start..end].copy_from_slice(&content[..end - start]);
-        match self.changed.last_mut() {
-            Some(last) if last.end == start => last.end = end,
-            _ => self.changed.push(start..end),
+        self.credit += (end - start) * ALLOWANCE.saturating_sub(size_of::<T>());
+        if let Some(last) = self.changed.last_mut()
+            && start >= last.end
+            && (start - last.end) * size_of::<T>() <= self.credit
+        {
+            self.credit -= (start - last.end) * size_of::<T>();
+            last.end = end;
+            return;
         }
+        self.changed.push(start..end);
     }
 
     /// All rows, used or not.
@@ -96,6 +114,7 @@ impl<T: Pod> Table<T> {
 
     /// Forgets which rows have changed.
     pub(crate) fn clear_changed(&mut self) {
+        self.credit = 0;
         self.changed.clear();
     }
 }
@@ -106,18 +125,35 @@ mod tests {
 
     #[test]
     fn ranges_that_touch_are_uploaded_as_one_and_those_that_stand_still_not_at_all() {
-        let mut table = Table::<u32>::new("rows");
+        let mut table = Table::<[u32; 16]>::new("rows");
+        let row = [7; 16];
         let [a, b, c, d] = [3, 2, 4, 1].map(|len| table.allocate(len).unwrap());
         for rows in [a, b, c, d] {
-            table.write(rows, &vec![7; rows.len as usize]);
+            table.write(rows, 0, &vec![row; rows.len as usize]);
         }
-        assert_eq!(table.changed_bytes(), 10 * 4);
+        assert_eq!(table.changed_bytes(), 10 * 64);
         assert_eq!(table.changed().len(), 1);
         table.clear_changed();
-        table.write(a, &[1, 2, 3]);
-        table.write(b, &[4, 5]);
-        table.write(d, &[6]);
-        assert_eq!(table.changed(), &[0..5, 9..10]);
+        table.write(a, 1, &[row; 2]);
+        table.write(b, 0, &[row; 2]);
+        table.write(d, 0, &[row]);
+        assert_eq!(table.changed(), &[1..5, 9..10]);
+    }
+
+    #[test]
+    fn small_gaps_are_closed_within_the_allowance() {
+        // 60 bytes a row: 15 rows that changed pay for one that did not.
+        let mut table = Table::<[u32; 15]>::new("rows");
+        let rows = table.allocate(64).unwrap();
+        for start in [1, 18, 26] {
+            table.write(rows, start, &[[7; 15]; 16][..8.min(34 - start)]);
+        }
+        assert_eq!(table.changed(), &[1..9, 18..34]);
+        table.clear_changed();
+        table.write(rows, 1, &[[7; 15]; 16]);
+        table.write(rows, 18, &[[7; 15]; 16]);
+        assert_eq!(table.changed(), &[1..34]);
+        assert!(table.changed_bytes() <= 64 * 32);
     }
 
     #[test]

@@ -78,3 +78,10 @@ impl Pixels {
         .map_err(|error| format!("{}: {error}", path.display()))
     }
 }
+
+/// Reads a PNG: its size, and its colours of 8 bits, row by row.
+pub fn load_png(path: &Path) -> Result<(UVec2, Vec<u8>), String> {
+    let image = image::open(path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let image = image.to_rgb8();
+    Ok((UVec2::new(image.width(), image.height()), image.into_raw()))
+}

@@ -12,7 +12,7 @@ mod studio;
 mod timing;
 
 pub use args::{CommonArgs, Size, parse_size, parse_vec3};
-pub use capture::Pixels;
+pub use capture::{Pixels, load_png};
 pub use compare::mean_flip;
 pub use exr_file::save_exr;
 pub use headless::{Headless, adapter_name, wait_for_gpu};

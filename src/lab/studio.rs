@@ -261,36 +261,45 @@ impl Studio {
 
     /// A picture of figures. The materials of all plants are switched over and back.
     pub fn measure(&mut self, shot: &Shot) -> Figures {
-        let target = match &self.figures {
-            Some((size, target)) if *size == shot.size => target.clone(),
+        let geometry = self.measure_output(shot, FrustaOutput::Geometry);
+        let normals = self.measure_output(shot, FrustaOutput::Normals);
+        self.set_output(FrustaOutput::Shaded);
+        Figures { geometry, normals }
+    }
+
+    /// A picture of one kind of figures, which the materials of all plants go on writing.
+    pub fn measure_output(&mut self, shot: &Shot, output: FrustaOutput) -> Pixels {
+        let (target, is_new) = match &self.figures {
+            Some((size, target)) if *size == shot.size => (target.clone(), false),
             _ => {
                 let target = self.headless.target(shot.size, TextureFormat::Rgba32Float);
                 self.figures = Some((shot.size, target.clone()));
-                target
+                (target, true)
             }
         };
         self.aim(shot, target.clone(), MISS);
-        let mut take = |output| {
-            self.set_output(output);
+        let is_other = self.set_output(output);
+        // What a material writes, and a camera's target, reach the pipelines a frame later.
+        if is_new || is_other {
             self.headless.step();
-            self.headless.capture(&target)
-        };
-        let figures = Figures {
-            geometry: take(FrustaOutput::Geometry),
-            normals: take(FrustaOutput::Normals),
-        };
-        self.set_output(FrustaOutput::Shaded);
-        figures
+        }
+        self.headless.capture(&target)
     }
 
-    /// What all plants' materials write.
-    pub fn set_output(&mut self, output: FrustaOutput) {
-        let mut materials = self
-            .headless
-            .world()
-            .resource_mut::<Assets<FrustaMaterial>>();
-        for (_, material) in materials.iter_mut() {
-            material.extension.output = output;
+    /// What all plants' materials write. Tells whether any wrote something else before.
+    pub fn set_output(&mut self, output: FrustaOutput) -> bool {
+        let world = self.headless.world();
+        let mut materials = world.resource_mut::<Assets<FrustaMaterial>>();
+        let others: Vec<_> = materials
+            .iter()
+            .filter(|(_, material)| material.extension.output != output)
+            .map(|(id, _)| id)
+            .collect();
+        for id in &others {
+            if let Some(mut material) = materials.get_mut(*id) {
+                material.extension.output = output;
+            }
         }
+        !others.is_empty()
     }
 }

@@ -11,8 +11,8 @@ use super::error::SkeletonError;
 use super::joint::Joint;
 use super::order::parents_first;
 
-/// Most joints that a [`Skeleton`] may have.
-pub const MAX_JOINTS: usize = 4_000_000;
+/// Most joints that a [`Skeleton`] may have: as many as fit one storage buffer of the size that every device offers.
+pub const MAX_JOINTS: usize = 2_000_000;
 
 /// The joints of a plant, each naming its parent: a forest of any number of trees.
 ///

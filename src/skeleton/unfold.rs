@@ -1,7 +1,7 @@
 //! Unfolding a plant into one entity a segment, so that anything that moves entities bends it.
 
+use bevy::asset::prelude::AssetChanged;
 use bevy::math::Affine3A;
-use bevy::platform::collections::HashSet;
 use bevy::prelude::*;
 
 use super::pose::rest_translation;
@@ -14,8 +14,10 @@ use super::{PosedJoints, Skeleton, Skeleton3d};
 /// rest [`Transform`] is a translation alone. Rotate it and all that hangs on it bends along. Each has a
 /// [`Name`], `Segment 7`, so that animation clips can address it.
 ///
-/// When the skeleton is reloaded with other joints, the plant is unfolded anew. Removing this component folds the
-/// plant up again: its segments are despawned and it stands at rest.
+/// When the skeleton is reloaded, segments move to their new places and keep their rotations and all that hangs on
+/// them; only if joints have come, gone or found other parents is the plant unfolded anew, and then what hangs on its
+/// segments is despawned with them. Removing this component folds the plant up again: its segments are despawned and
+/// it stands at rest.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(PosedJoints)]
@@ -37,7 +39,8 @@ pub struct SkeletonSegment {
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct SegmentEntities {
     entities: Vec<Option<Entity>>,
-    skeleton: Option<AssetId<Skeleton>>,
+    /// The parents of the joints, by which a reload is told from another hierarchy.
+    parents: Vec<Option<u32>>,
 }
 
 impl SegmentEntities {
@@ -57,38 +60,49 @@ impl SegmentEntities {
 pub(crate) fn unfold(
     mut commands: Commands,
     skeletons: Res<Assets<Skeleton>>,
-    mut events: MessageReader<AssetEvent<Skeleton>>,
-    plants: Query<(Entity, &Skeleton3d, Option<&SegmentEntities>), With<UnfoldSkeleton>>,
-    changed: Query<(), (With<UnfoldSkeleton>, Changed<Skeleton3d>)>,
-    folded: Query<(), (With<UnfoldSkeleton>, Without<SegmentEntities>)>,
+    mut plants: Query<(&Skeleton3d, Option<&mut SegmentEntities>), With<UnfoldSkeleton>>,
+    changed: Query<
+        Entity,
+        (
+            With<UnfoldSkeleton>,
+            Or<(
+                Without<SegmentEntities>,
+                Changed<Skeleton3d>,
+                AssetChanged<Skeleton3d>,
+            )>,
+        ),
+    >,
+    mut segments: Query<&mut Transform, With<SkeletonSegment>>,
 ) {
-    let reloaded: HashSet<AssetId<Skeleton>> = events
-        .read()
-        .filter_map(|event| match event {
-            AssetEvent::Added { id } | AssetEvent::Modified { id } => Some(*id),
-            _ => None,
-        })
-        .collect();
-    if reloaded.is_empty() && changed.is_empty() && folded.is_empty() {
-        return;
-    }
-    for (plant, skeleton3d, unfolded) in &plants {
-        let id = skeleton3d.id();
-        let Some(skeleton) = skeletons.get(id) else {
+    for plant in &changed {
+        let Ok((skeleton3d, unfolded)) = plants.get_mut(plant) else {
             continue;
         };
-        if let Some(unfolded) = unfolded {
-            let same = unfolded.skeleton == Some(id) && !reloaded.contains(&id);
-            if same {
+        let Some(skeleton) = skeletons.get(skeleton3d.id()) else {
+            continue;
+        };
+        let joints = skeleton.joints();
+        let parents: Vec<_> = joints.iter().map(|joint| joint.parent).collect();
+        if let Some(mut unfolded) = unfolded {
+            if unfolded.parents == parents {
+                unfolded.set_changed();
+                for (i, entity) in unfolded.iter() {
+                    if let Ok(segment) = segments.get_mut(entity) {
+                        let rest = rest_translation(joints, i);
+                        segment
+                            .map_unchanged(|segment| &mut segment.translation)
+                            .set_if_neq(rest);
+                    }
+                }
                 continue;
             }
-            despawn_segments(&mut commands, unfolded);
+            despawn_segments(&mut commands, &unfolded);
         }
-        let mut entities: Vec<Option<Entity>> = Vec::with_capacity(skeleton.len());
-        for (i, joint) in skeleton.joints().iter().enumerate() {
+        let mut entities: Vec<Option<Entity>> = Vec::with_capacity(joints.len());
+        for (i, joint) in joints.iter().enumerate() {
             let entity = joint.parent.map(|parent| {
                 let above = entities[parent as usize].unwrap_or(plant);
-                let rest = rest_translation(skeleton.joints(), i);
+                let rest = rest_translation(joints, i);
                 commands
                     .spawn((
                         Name::new(format!("Segment {i}")),
@@ -103,10 +117,9 @@ pub(crate) fn unfold(
             });
             entities.push(entity);
         }
-        commands.entity(plant).insert(SegmentEntities {
-            entities,
-            skeleton: Some(id),
-        });
+        commands
+            .entity(plant)
+            .insert(SegmentEntities { entities, parents });
     }
 }
 

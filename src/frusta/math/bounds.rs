@@ -3,7 +3,7 @@
 //! The four side planes touch the cone, the two end planes are the cutting planes themselves. The pyramid is
 //! turned so that its sides face the tilt of the steeper cut; where a corner's edge would still miss a plane, or
 //! the planes cross inside the pyramid, that end is closed across the axis at the cut's farthest point instead.
-//! Round ends stand off by their sphere. `frusta/bounds.wgsl` is this file term for term.
+//! Round ends stand off by their sphere. `shaders/bounds.wgsl` is this file term for term.
 
 use super::cone::{End, EndKind, Frustum};
 use super::scalar::{Real, Vec3};

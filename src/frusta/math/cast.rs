@@ -3,7 +3,7 @@
 //! Inserting the ray in |P⊥|² = r(y)² gives a quadratic in t. Its coefficients lose their digits when the eye is
 //! far away, and its discriminant when the frustum is thin, so the origin is first moved along the ray to the
 //! point nearest the segment's middle, then to the vertex of the parabola. Of the roots the first counts
-//! that is ahead, on the proper nappe and between the planes. `frusta/cast.wgsl` is this file term for term.
+//! that is ahead, on the proper nappe and between the planes. `shaders/cast.wgsl` is this file term for term.
 
 use super::cone::{EndKind, Frustum};
 use super::scalar::{Real, Vec3};

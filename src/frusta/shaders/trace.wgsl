@@ -4,7 +4,7 @@
 
 #import bevy_pbr::mesh_bindings::mesh
 #import bevy_pbr::mesh_functions
-#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, load_frustum, reference_across, from_octahedral}
+#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, load_frustum, reference_across, vec3_from}
 #import bevy_verdure::frusta::cast::{Ray, Hit, cast_ray, NO_ROOT, CONE}
 #import bevy_verdure::frusta::bounds::{bounds, bounds_corner}
 #import bevy_verdure::frusta::surface::{SurfacePoint, surface_point, TAU}
@@ -203,12 +203,15 @@ fn previous_local_position(seen: Seen, in: Varying) -> vec3<f32> {
     let joint = joints[plant.first_joint + in.segment];
     let parent = joints[plant.first_joint + shapes[plant.first_shape + in.segment].parent];
     let frustum = seen.frustum;
-    if all(joint.previous_position == joint.position)
-        && all(parent.previous_position == parent.position)
+    let position = vec3_from(joint.position);
+    let previous_position = vec3_from(joint.previous_position);
+    let previous_base = vec3_from(parent.previous_position);
+    if all(previous_position == position)
+        && all(previous_base == frustum.base)
         && joint.previous_reference == joint.reference {
         return frustum.base + seen.hit.point;
     }
-    let across = joint.previous_position - parent.previous_position;
+    let across = previous_position - previous_base;
     let length = length(across);
     var axis = frustum.axis;
     if length > 0.0 {
@@ -221,5 +224,5 @@ fn previous_local_position(seen: Seen, in: Varying) -> vec3<f32> {
     let x = dot(p, reference);
     let z = dot(p, cross(frustum.axis, reference));
     let y = dot(p, frustum.axis) * select(1.0, length / frustum.length, frustum.length > 0.0);
-    return parent.previous_position + axis * y + previous_reference * x + cross(axis, previous_reference) * z;
+    return previous_base + axis * y + previous_reference * x + cross(axis, previous_reference) * z;
 }

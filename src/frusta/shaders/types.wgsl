@@ -3,14 +3,13 @@
 // The records of `records.rs`, and a segment's frustum as the geometry knows it (`math/cone.rs`).
 // A segment has the index of the joint that ends it.
 
-// A joint in its pose, with what is needed of the segment that it ends.
-struct Joint {
-    position: vec3<f32>,
-    radius: f32,
+// A joint in its pose, with what is needed of the segment that it ends. Scalars, so that no row is padded.
+struct JointRecord {
+    position: array<f32, 3>,
     // The plane at the segment's start: unit normal, and offset from the parent's joint.
-    plane_normal: vec3<f32>,
+    plane_normal: array<f32, 3>,
     plane_offset: f32,
-    previous_position: vec3<f32>,
+    previous_position: array<f32, 3>,
     // Direction of u = 0, octahedral.
     reference: u32,
     base_radius: f32,
@@ -26,6 +25,7 @@ struct Shape {
     v_start: f32,
     v_end: f32,
     twist: f32,
+    radius: f32,
 }
 
 struct Plant {
@@ -35,7 +35,7 @@ struct Plant {
     unused: u32,
 }
 
-@group(#{MATERIAL_BIND_GROUP}) @binding(100) var<storage, read> joints: array<Joint>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(100) var<storage, read> joints: array<JointRecord>;
 @group(#{MATERIAL_BIND_GROUP}) @binding(101) var<storage, read> shapes: array<Shape>;
 @group(#{MATERIAL_BIND_GROUP}) @binding(102) var<storage, read> plants: array<Plant>;
 
@@ -66,19 +66,23 @@ struct Frustum {
     end: End,
 }
 
+fn vec3_from(v: array<f32, 3>) -> vec3<f32> {
+    return vec3(v[0], v[1], v[2]);
+}
+
 fn load_frustum(plant: Plant, segment: u32) -> Frustum {
     let joint = joints[plant.first_joint + segment];
     let shape = shapes[plant.first_shape + segment];
     var frustum: Frustum;
     if shape.parent == NONE {
-        frustum.base = joint.position;
+        frustum.base = vec3_from(joint.position);
         frustum.axis = vec3(0.0, 1.0, 0.0);
         frustum.radius = -1.0;
         return frustum;
     }
     let parent = joints[plant.first_joint + shape.parent];
-    let across = joint.position - parent.position;
-    frustum.base = parent.position;
+    frustum.base = vec3_from(parent.position);
+    let across = vec3_from(joint.position) - frustum.base;
     frustum.length = length(across);
     frustum.axis = vec3(0.0, 1.0, 0.0);
     if frustum.length > 0.0 {
@@ -86,18 +90,23 @@ fn load_frustum(plant: Plant, segment: u32) -> Frustum {
     }
     frustum.radius = joint.base_radius;
     frustum.slope = joint.slope;
-    frustum.start = End(joint.plane_normal, joint.plane_offset, parent.radius, joint.bits & 3u);
-    frustum.end = End(frustum.axis, 0.0, joint.radius, (joint.bits >> 2u) & 3u);
+    frustum.start = End(
+        vec3_from(joint.plane_normal),
+        joint.plane_offset,
+        shapes[plant.first_shape + shape.parent].radius,
+        joint.bits & 3u,
+    );
+    frustum.end = End(frustum.axis, 0.0, shape.radius, (joint.bits >> 2u) & 3u);
     if frustum.end.kind == ROUND {
         if (joint.bits & WHOLE_SPHERE) != 0u {
             frustum.end.offset = -WHOLE;
         } else if (joint.bits & PAPER) == 0u {
             // The contact circle.
-            frustum.end.offset = -joint.radius * frustum.slope / sqrt(1.0 + frustum.slope * frustum.slope);
+            frustum.end.offset = -shape.radius * frustum.slope / sqrt(1.0 + frustum.slope * frustum.slope);
         }
     } else if frustum.end.kind == CUT && shape.next != NONE {
         let next = joints[plant.first_joint + shape.next];
-        frustum.end.normal = next.plane_normal;
+        frustum.end.normal = vec3_from(next.plane_normal);
         frustum.end.offset = next.plane_offset;
     }
     return frustum;
