@@ -82,7 +82,6 @@ impl OwnPose {
             turned.unwrap_or(linked.references[i])
         });
         let join = settings.skin().join;
-        self.changed.clear();
         for (i, record) in self.records.iter_mut().enumerate() {
             let position = self.posed[i].position;
             let new = JointRecord::new(position, &self.frusta[i], join, Some(record));

@@ -79,8 +79,6 @@ pub(crate) fn attach(
         {
             own.follow(&plant.linked, plant.settings, posed);
             own.settle();
-            own.changed.clear();
-            own.changed.push(0..own.records.len());
             own.measure();
             plant.bounds = own.bounds;
         }

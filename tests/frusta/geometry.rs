@@ -349,7 +349,7 @@ fn the_shaders_compute_what_the_plain_files_compute() {
     println!(
         "{hits} hits, {wrong} wrong; worst depth {worst_depth:e}, u {worst_uv:e}, normal {worst_normal:e}"
     );
-    assert!(hits > 10_000);
+    assert!(hits > 5_000);
     // Along outlines, where the last bit decides.
     assert!(wrong * 2_000 <= hits, "{wrong} wrong");
     // At a grazing hit the root of the discriminant turns roundings of 6e-8 into some 2.4e-4 of the radius.

@@ -238,7 +238,12 @@ fn settings_and_skeletons_may_change_while_a_plant_is_bent() {
     // The joint at (0, 1), the tip at (1, 1) or (2, 1), both with spheres of 0.2.
     let pixels = SIZE.y as f32 / (2.0 * 6.0 * 0.35f32.tan());
     let expected = |length: f32| ((length + 0.4) * pixels) as usize;
-    assert!(width(&mut studio).abs_diff(expected(1.0)) <= 3);
+    let found = width(&mut studio);
+    assert!(
+        found.abs_diff(expected(1.0)) <= 3,
+        "{found} pixels instead of {}",
+        expected(1.0)
+    );
     studio
         .world()
         .entity_mut(plant)
@@ -329,7 +334,26 @@ fn a_plant_follows_its_file_and_keeps_its_shape_when_an_edit_breaks_it() {
 }
 
 #[test]
-fn a_device_without_storage_buffers_draws_the_rest() {
+fn a_device_without_storage_buffers_gets_one_error_and_the_app_runs_on() {
+    // In a process of its own: Bevy asks only the first device of a process what it can do.
+    let child = std::process::Command::new(std::env::current_exe().unwrap())
+        .args([
+            "--exact",
+            "live::without_storage_buffers",
+            "--ignored",
+            "--nocapture",
+        ])
+        .output()
+        .unwrap();
+    let log = String::from_utf8_lossy(&child.stdout) + String::from_utf8_lossy(&child.stderr);
+    assert!(child.status.success(), "{log}");
+    assert!(log.contains("1 passed"), "{log}");
+    assert_eq!(log.matches("plants are not drawn").count(), 1, "{log}");
+}
+
+#[test]
+#[ignore = "a process of its own, started by the test above"]
+fn without_storage_buffers() {
     let settings = WgpuSettings {
         constrained_limits: Some(WgpuLimits {
             max_storage_buffers_per_shader_stage: 0,
@@ -342,49 +366,30 @@ fn a_device_without_storage_buffers_draws_the_rest() {
     });
     let target = headless.target(SIZE, TextureFormat::Rgba8UnormSrgb);
     let world = headless.world();
-    let cube = world.resource_mut::<Assets<Mesh>>().add(Cuboid::default());
-    let white = world
-        .resource_mut::<Assets<StandardMaterial>>()
-        .add(StandardMaterial {
-            unlit: true,
-            ..default()
-        });
-    world.spawn((
-        Mesh3d(cube),
-        MeshMaterial3d(white),
-        Transform::from_xyz(1.0, 0.0, 0.0),
-    ));
-    let joints = vec![
-        Joint::root(Vec3::NEG_X, 0.5),
-        Joint::new(Vec3::NEG_X, 0.5, 0),
-    ];
+    let joints = vec![Joint::root(Vec3::ZERO, 0.5), Joint::new(Vec3::Y, 0.5, 0)];
     let skeleton = Skeleton::new(joints).unwrap();
     let skeleton = world.resource_mut::<Assets<Skeleton>>().add(skeleton);
-    let bark = world
-        .resource_mut::<Assets<FrustaMaterial>>()
-        .add(frusta_material(Color::WHITE));
+    let bark = frusta_material(Color::WHITE);
+    let bark = world.resource_mut::<Assets<FrustaMaterial>>().add(bark);
     world.spawn((Skeleton3d(skeleton), MeshMaterial3d(bark)));
     world.spawn((
         Camera3d::default(),
         Camera {
-            clear_color: ClearColorConfig::Custom(Color::BLACK),
+            clear_color: ClearColorConfig::Custom(Color::srgb(0.0, 0.0, 1.0)),
             ..default()
         },
         Msaa::Off,
         target.clone(),
         Transform::from_xyz(0.0, 0.0, 5.0),
     ));
-    for _ in 0..3 {
+    for _ in 0..10 {
         headless.step();
+        assert!(headless.app().should_exit().is_none());
     }
     let picture = headless.capture(&target);
-    assert!(
-        picture.rgb(SIZE.x / 2 + 46, SIZE.y / 2)[0] > 200,
-        "the cube is there"
-    );
     assert_eq!(
-        picture.rgb(SIZE.x / 2 - 46, SIZE.y / 2),
-        [0, 0, 0],
-        "the plant is not"
+        picture.rgb(SIZE.x / 2, SIZE.y / 2),
+        [0, 0, 255],
+        "the sky without the plant"
     );
 }

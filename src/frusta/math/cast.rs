@@ -39,8 +39,10 @@ pub struct Ray {
     pub direction: Vec3,
 }
 
-/// Below this share of |D|² the quadratic's first coefficient is taken for zero: the ray runs along the cone.
-const ALONG: Real = 1e-6;
+/// Sizes of the segment at which the parabola's vertex is far off.
+const FAR: Real = 4.0;
+/// Below this share of |D|² the quadratic's first coefficient is taken for zero: its second root is far off.
+const ALONG: Real = 1e-12;
 /// Stands for a root that does not exist; no test accepts it.
 const NO_ROOT: Real = 1e30;
 
@@ -116,8 +118,10 @@ fn cone_roots(p: Vec3, d: Vec3, dd: Real, frustum: &Frustum) -> (Real, Real) {
     let mut r = frustum.radius + k * y;
     let mut b = p_perp.dot(d_perp) - r * dr;
     // Move the origin once more, to the vertex of the parabola: there c carries the discriminant whole.
+    // Not where it is far off, as for a ray along the cone: the point at hand is the better origin then.
+    let size = frustum.length + frustum.start.radius.max(frustum.end.radius);
     let mut t_v = 0.0;
-    if a.abs() > ALONG * dd {
+    if b * b * dd <= a * a * (FAR * size) * (FAR * size) && a != 0.0 {
         t_v = -b / a;
         let v = p + d * t_v;
         y = v.dot(axis);
@@ -133,11 +137,7 @@ fn cone_roots(p: Vec3, d: Vec3, dd: Real, frustum: &Frustum) -> (Real, Real) {
     }
     let root = discriminant.sqrt();
     let q = if b < 0.0 { root - b } else { -(b + root) };
-    let t1 = if a.abs() > ALONG * ALONG * dd {
-        q / a
-    } else {
-        NO_ROOT
-    };
+    let t1 = if a.abs() > ALONG * dd { q / a } else { NO_ROOT };
     let t2 = if q != 0.0 { c / q } else { t1 };
     (t1.min(t2) + t_v, t1.max(t2) + t_v)
 }

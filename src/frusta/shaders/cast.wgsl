@@ -8,7 +8,8 @@ const CONE: u32 = 0u;
 const START: u32 = 1u;
 const END: u32 = 2u;
 
-const ALONG: f32 = 1e-6;
+const FAR: f32 = 4.0;
+const ALONG: f32 = 1e-12;
 const NO_ROOT: f32 = 1e30;
 
 // Origin and direction in the plant's local space, the origin relative to the frustum's base.
@@ -93,8 +94,10 @@ fn cone_roots(p: vec3<f32>, d: vec3<f32>, dd: f32, frustum: Frustum) -> vec2<f32
     var r = frustum.radius + k * y;
     var b = dot(p_perp, d_perp) - r * dr;
     // Move the origin once more, to the vertex of the parabola: there c carries the discriminant whole.
+    // Not where it is far off, as for a ray along the cone: the point at hand is the better origin then.
+    let size = frustum.length + max(frustum.start.radius, frustum.end.radius);
     var t_v = 0.0;
-    if abs(a) > ALONG * dd {
+    if b * b * dd <= a * a * (FAR * size) * (FAR * size) && a != 0.0 {
         t_v = -b / a;
         let v = p + d * t_v;
         y = dot(v, axis);
@@ -114,7 +117,7 @@ fn cone_roots(p: vec3<f32>, d: vec3<f32>, dd: f32, frustum: Frustum) -> vec2<f32
         q = root - b;
     }
     var t1 = NO_ROOT;
-    if abs(a) > ALONG * ALONG * dd {
+    if abs(a) > ALONG * dd {
         t1 = q / a;
     }
     var t2 = t1;
