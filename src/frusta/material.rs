@@ -80,7 +80,7 @@ const FIRST_BINDING: u32 = 100;
 pub(crate) fn is_supported(device: &RenderDevice) -> bool {
     let limits = device.limits();
     limits.max_storage_buffers_per_shader_stage >= STORAGE_BUFFERS
-        && limits.max_storage_buffer_binding_size as u64 >= 1 << 20
+        && limits.max_storage_buffer_binding_size >= 1 << 20
 }
 
 /// Storage buffers that a shader stage needs: the extension's three, and those of Bevy's views and meshes.

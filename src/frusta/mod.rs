@@ -32,6 +32,11 @@
 //! Bevy's own mesh picking and CPU ray casts see no triangles here; physics needs colliders of its own. Storage
 //! buffers in the vertex stage are required, so WebGL 2 is out; see [`FrustaPlugin`].
 
+#![allow(
+    clippy::duplicate_mod,
+    reason = "the files in math/ are compiled once for each precision"
+)]
+
 mod buffers;
 mod component;
 pub mod double;

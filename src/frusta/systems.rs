@@ -37,8 +37,20 @@ type Unattached = Or<(
     AssetChanged<Skeleton3d>,
 )>;
 
+/// What is looked at to attach a plant.
+type Attachable<'w> = (
+    &'w Skeleton3d,
+    &'w Frusta,
+    Option<&'w PosedJoints>,
+    Option<&'w FrustaPlant>,
+);
+
 /// Attaches plants whose skeleton is loaded. One whose skeleton is not there yet, or could not be reloaded, keeps
 /// what it has.
+#[expect(
+    clippy::too_many_arguments,
+    reason = "a system: each argument is a resource or a query"
+)]
 pub(crate) fn attach(
     mut commands: Commands,
     skeletons: Res<Assets<Skeleton>>,
@@ -47,12 +59,7 @@ pub(crate) fn attach(
     mut data: ResMut<FrustaData>,
     mut unposed: RemovedComponents<PosedJoints>,
     changed: Query<Entity, (With<Skeleton3d>, Unattached)>,
-    plants: Query<(
-        &Skeleton3d,
-        &Frusta,
-        Option<&PosedJoints>,
-        Option<&FrustaPlant>,
-    )>,
+    plants: Query<Attachable>,
 ) {
     for entity in changed.iter().chain(unposed.read()) {
         let Ok((skeleton3d, settings, posed, plant)) = plants.get(entity) else {

@@ -74,17 +74,17 @@ pub(crate) fn rest_translation(joints: &[Joint], i: usize) -> Vec3 {
     }
 }
 
+/// What tells that a plant's rotations have to be gone through again.
+type Turned = Or<(
+    Changed<SkeletonPose>,
+    Changed<Skeleton3d>,
+    AssetChanged<Skeleton3d>,
+)>;
+
 /// Poses the plants whose [`SkeletonPose`], or whose skeleton, has changed.
 pub(crate) fn pose_from_rotations(
     skeletons: Res<Assets<Skeleton>>,
-    mut plants: Query<
-        (&Skeleton3d, &SkeletonPose, &mut PosedJoints),
-        Or<(
-            Changed<SkeletonPose>,
-            Changed<Skeleton3d>,
-            AssetChanged<Skeleton3d>,
-        )>,
-    >,
+    mut plants: Query<(&Skeleton3d, &SkeletonPose, &mut PosedJoints), Turned>,
 ) {
     plants
         .par_iter_mut()

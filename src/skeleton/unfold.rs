@@ -56,22 +56,22 @@ impl SegmentEntities {
     }
 }
 
+/// What tells that a plant is to be unfolded, perhaps anew.
+type Folded = (
+    With<UnfoldSkeleton>,
+    Or<(
+        Without<SegmentEntities>,
+        Changed<Skeleton3d>,
+        AssetChanged<Skeleton3d>,
+    )>,
+);
+
 /// Spawns the segments of plants that are to be unfolded and whose skeleton is loaded.
 pub(crate) fn unfold(
     mut commands: Commands,
     skeletons: Res<Assets<Skeleton>>,
     mut plants: Query<(&Skeleton3d, Option<&mut SegmentEntities>), With<UnfoldSkeleton>>,
-    changed: Query<
-        Entity,
-        (
-            With<UnfoldSkeleton>,
-            Or<(
-                Without<SegmentEntities>,
-                Changed<Skeleton3d>,
-                AssetChanged<Skeleton3d>,
-            )>,
-        ),
-    >,
+    changed: Query<Entity, Folded>,
     mut segments: Query<&mut Transform, With<SkeletonSegment>>,
 ) {
     for plant in &changed {

@@ -187,7 +187,6 @@ fn a_ribbed_cactus() {
                 perceptual_roughness: 0.75,
                 ..default()
             });
-            drop(images);
             let skin = world.resource_mut::<Assets<FrustaMaterial>>().add(skin);
             let cactus = cactus::body(18, &mut cactus::Dice(3));
             let skeleton = world

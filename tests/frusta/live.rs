@@ -5,7 +5,6 @@ use std::time::Instant;
 
 use bevy::animation::{AnimatedBy, AnimationTargetId, animated_field};
 use bevy::asset::{AssetPlugin, uuid_handle};
-use bevy::camera::CameraProjection;
 use bevy::camera::visibility::NoFrustumCulling;
 use bevy::core_pipeline::prepass::MotionVectorPrepass;
 use bevy::pbr::{Material, MaterialPlugin};
@@ -256,7 +255,6 @@ fn settings_and_skeletons_may_change_while_a_plant_is_bent() {
     let handle = studio.world().get::<Skeleton3d>(plant).unwrap().0.clone();
     let mut skeletons = studio.world().resource_mut::<Assets<Skeleton>>();
     *skeletons.get_mut(&handle).unwrap() = limb(2.0);
-    drop(skeletons);
     studio.headless.step();
     studio.headless.step();
     assert!(

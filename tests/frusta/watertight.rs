@@ -103,6 +103,11 @@ fn holes(
                     inside += 1;
                     continue;
                 }
+                // A hole begins beside the plant.
+                let beside = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+                if beside.iter().all(|(x, y)| picture.floats(*x, *y)[1] < 0.0) {
+                    continue;
+                }
                 let (cx, cy) = (x as f32 + 0.5, y as f32 + 0.5);
                 if is_hit(cx, cy)
                     && [-1.0, 1.0]

@@ -133,8 +133,8 @@ pub fn cut_extent(
 /// If the slices differ in length or a link names a joint outside them.
 pub fn skin(links: &[Link], joints: &[PosedJoint], skin: Skin, frusta: &mut [Frustum]) {
     assert!(links.len() == joints.len() && joints.len() == frusta.len());
-    for i in 0..links.len() {
-        frusta[i] = round_frustum(i, links, joints, skin.join);
+    for (i, frustum) in frusta.iter_mut().enumerate() {
+        *frustum = round_frustum(i, links, joints, skin.join);
     }
     match skin.join {
         JoinKind::Round => {}

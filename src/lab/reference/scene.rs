@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 
-use super::bvh::{Bounds, Bvh};
+#[cfg(test)]
+use super::bvh::Bounds;
+use super::bvh::Bvh;
 use super::cone::{Cone, CutPlane};
 use super::limbs::Limbs;
 use super::segment::{Cap, Segment, SegmentBody};
