@@ -4,6 +4,7 @@ use core::time::Duration;
 
 use bevy::camera::RenderTarget;
 use bevy::image::ImageSampler;
+use bevy::light::cluster::GlobalClusterSettings;
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
@@ -71,6 +72,10 @@ impl Headless {
         configure(&mut app);
         app.finish();
         app.cleanup();
+        // Lights are sorted on the CPU: sorted on Mesa's software device, spot lights light nothing.
+        if let Some(mut clusters) = app.world_mut().get_resource_mut::<GlobalClusterSettings>() {
+            clusters.gpu_clustering = None;
+        }
         Self { app }
     }
 
