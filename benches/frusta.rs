@@ -88,7 +88,9 @@ fn crowd() -> Headless {
             .add_systems(
                 PostUpdate,
                 (
-                    border::<0>.before(VerdureSystems::Attach),
+                    border::<0>
+                        .after(bevy::app::AnimationSystems)
+                        .before(VerdureSystems::Attach),
                     border::<1>
                         .after(VerdureSystems::Attach)
                         .before(VerdureSystems::Pose),

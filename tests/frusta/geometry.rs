@@ -61,12 +61,12 @@ fn points_of_one_cone_on_a_mitres_plane_lie_on_the_other() {
             ..c1
         };
         let c2 = Cone::touching(second, l2, radius, after);
-        let Some(plane) = mitre_plane(&c1, &c2, radius) else {
+        let Some((plane, [tilt1, tilt2])) = mitre_plane(&c1, &c2, radius) else {
             continue;
         };
         let (Some(_), Some(_)) = (
-            cut_extent(c1.axis, c1.radius, c1.slope, &plane),
-            cut_extent(c2.axis, c2.radius, c2.slope, &plane),
+            cut_extent(c1.radius, c1.slope, c1.secant, tilt1, plane.offset),
+            cut_extent(c2.radius, c2.slope, c2.secant, tilt2, plane.offset),
         ) else {
             continue;
         };

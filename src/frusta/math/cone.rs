@@ -17,6 +17,8 @@ pub struct Cone {
     pub radius: Real,
     /// Change of radius with y; 0 for a cylinder, negative where the cone narrows along its axis.
     pub slope: Real,
+    /// 1/c = √(1 + slope²), the secant of the half-angle.
+    pub secant: Real,
 }
 
 impl Cone {
@@ -27,11 +29,12 @@ impl Cone {
     /// The caller makes sure that neither sphere contains the other ([`touches_both`]).
     pub fn touching(axis: Vec3, length: Real, radius_from: Real, radius_to: Real) -> Self {
         let s = (radius_from - radius_to) / length;
-        let c = ((1.0 - s) * (1.0 + s)).sqrt();
+        let secant = 1.0 / ((1.0 - s) * (1.0 + s)).sqrt();
         Self {
             axis,
-            radius: radius_from / c,
-            slope: -s / c,
+            radius: radius_from * secant,
+            slope: -s * secant,
+            secant,
         }
     }
 
@@ -44,7 +47,7 @@ impl Cone {
     /// s, the signed sine of the half-angle: positive where the cone narrows along its axis.
     #[inline]
     pub fn sine(&self) -> Real {
-        -self.slope / (1.0 + self.slope * self.slope).sqrt()
+        -self.slope / self.secant
     }
 
     /// |P⊥| − r(y): zero on the surface, negative inside.
@@ -109,6 +112,8 @@ pub struct Frustum {
     pub radius: Real,
     /// Change of radius with axial distance.
     pub slope: Real,
+    /// Secant of the cone's half-angle.
+    pub secant: Real,
     /// The end at the base.
     pub start: End,
     /// The end at the joint.
@@ -124,6 +129,7 @@ impl Frustum {
             axis: self.axis,
             radius: self.radius,
             slope: self.slope,
+            secant: self.secant,
         }
     }
 

@@ -86,42 +86,73 @@ const SPACING: Real = 1e-4;
 /// towards a joint the outside grows without bound as the bend nears the last one that has an ellipse.
 const SPIKE: Real = 4.0;
 
-/// The plane in which two cones meet that touch a sphere of `radius` about the joint, or `None` at a fold.
+/// A cutting plane's tilt against a cone's axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tilt {
+    /// Cosine of the angle between the plane's normal and the axis.
+    pub cosine: Real,
+    /// Sine of that angle, not negative.
+    pub sine: Real,
+}
+
+impl Tilt {
+    /// The tilt of a plane with unit `normal` against a unit `axis`. The sine comes from the cross product: it keeps its
+    /// digits where the limb runs straight.
+    #[inline]
+    pub fn of(normal: Vec3, axis: Vec3) -> Self {
+        Self {
+            cosine: normal.dot(axis),
+            sine: normal.cross(axis).length(),
+        }
+    }
+}
+
+/// The plane in which two cones meet that touch a sphere of `radius` about the joint, with its tilt against both;
+/// `None` at a fold.
 #[inline]
-pub fn mitre_plane(first: &Cone, second: &Cone, radius: Real) -> Option<CuttingPlane> {
-    // 1/c from k = −s/c: 1/c² = 1 + k².
-    let w1 = (1.0 + first.slope * first.slope).sqrt();
-    let w2 = (1.0 + second.slope * second.slope).sqrt();
+pub fn mitre_plane(first: &Cone, second: &Cone, radius: Real) -> Option<(CuttingPlane, [Tilt; 2])> {
+    let (w1, w2) = (first.secant, second.secant);
     let normal = first.axis * w1 + second.axis * w2;
     let length = normal.length();
     if length <= FOLD * (w1 + w2) {
         return None;
     }
-    Some(CuttingPlane {
-        normal: normal / length,
-        offset: -radius * (first.slope + second.slope) / length,
-    })
+    let scale = 1.0 / length;
+    let plane = CuttingPlane {
+        normal: normal * scale,
+        offset: -radius * (first.slope + second.slope) * scale,
+    };
+    // With the bend between the axes: normal·M1 = w1 + w2 cos, |normal × M1| = w2 sin.
+    let cosine = first.axis.dot(second.axis);
+    let sine = first.axis.cross(second.axis).length();
+    let tilt1 = Tilt {
+        cosine: (w1 + w2 * cosine) * scale,
+        sine: w2 * sine * scale,
+    };
+    let tilt2 = Tilt {
+        cosine: (w1 * cosine + w2) * scale,
+        sine: w1 * sine * scale,
+    };
+    Some((plane, [tilt1, tilt2]))
 }
 
-/// Least and greatest axial distance, from the joint, of the ellipse that `plane` cuts from a cone of radius
-/// `radius` at the joint; `None` if the curve is no ellipse.
+/// Least and greatest axial distance, from the joint, of the ellipse that a plane of this `tilt` and `offset` cuts from
+/// a cone of radius `radius` at the joint; `None` if the curve is no ellipse.
 #[inline]
 pub fn cut_extent(
-    axis: Vec3,
     radius: Real,
     slope: Real,
-    plane: &CuttingPlane,
+    secant: Real,
+    tilt: Tilt,
+    offset: Real,
 ) -> Option<(Real, Real)> {
-    let m = plane.normal.dot(axis);
-    // The cross product, not √(1 − m²): it keeps its digits where the limb runs straight.
-    let q = plane.normal.cross(axis).length();
-    // Tilt and opening leave an ellipse while m > |s|, that is m/q > |k|.
-    let sine = slope.abs() / (1.0 + slope * slope).sqrt();
-    if m <= sine + ELLIPSE {
+    let Tilt { cosine: m, sine: q } = tilt;
+    // Tilt and opening leave an ellipse while m > |s|, that is m/c > |k|.
+    if (m - ELLIPSE) * secant <= slope.abs() {
         return None;
     }
-    let y1 = (plane.offset - radius * q) / (m + slope * q);
-    let y2 = (plane.offset + radius * q) / (m - slope * q);
+    let y1 = (offset - radius * q) / (m + slope * q);
+    let y2 = (offset + radius * q) / (m - slope * q);
     Some((y1.min(y2), y1.max(y2)))
 }
 
@@ -247,14 +278,17 @@ fn round_frustum(i: usize, links: &[Link], joints: &[PosedJoint], join: JoinKind
         frustum.axis = across / length;
         frustum.radius = radius_from;
         frustum.slope = (to.radius - radius_from) / length;
+        frustum.secant = (1.0 + frustum.slope * frustum.slope).sqrt();
         paper::set_ends(&mut frustum);
     } else if touches_both(length, radius_from, to.radius) {
         let cone = Cone::touching(across / length, length, radius_from, to.radius);
         frustum.axis = cone.axis;
         frustum.radius = cone.radius;
         frustum.slope = cone.slope;
-        set_contact(&mut frustum.start, cone.axis, cone.sine(), 1.0);
-        set_contact(&mut frustum.end, cone.axis, cone.sine(), -1.0);
+        frustum.secant = cone.secant;
+        let sine = cone.sine();
+        set_contact(&mut frustum.start, cone.axis, sine, 1.0);
+        set_contact(&mut frustum.end, cone.axis, sine, -1.0);
     } else {
         return lone_sphere(frustum, across, begins_root);
     }
@@ -294,18 +328,19 @@ fn lone_sphere(mut frustum: Frustum, across: Vec3, begins_root: bool) -> Frustum
 /// Cuts two frusta along the plane in which they meet, if there is one.
 #[inline]
 fn mitre(first: usize, second: usize, radius: Real, frusta: &mut [Frustum]) {
-    let (f1, f2) = (frusta[first], frusta[second]);
+    let (f1, f2) = (&frusta[first], &frusta[second]);
     if !(f1.has_cone() && f2.has_cone()) {
         return;
     }
-    let Some(plane) = mitre_plane(&f1.cone(), &f2.cone(), radius) else {
+    let Some((plane, [tilt1, tilt2])) = mitre_plane(&f1.cone(), &f2.cone(), radius) else {
         return;
     };
-    let at_joint = f1.cone().radius_at(f1.length);
-    let Some((near1, far1)) = cut_extent(f1.axis, at_joint, f1.slope, &plane) else {
+    // Both cones touch the sphere: at the joint their radii are ρ/c.
+    let (r1, r2) = (radius * f1.secant, radius * f2.secant);
+    let Some((near1, far1)) = cut_extent(r1, f1.slope, f1.secant, tilt1, plane.offset) else {
         return;
     };
-    let Some((far2, near2)) = cut_extent(f2.axis, f2.radius, f2.slope, &plane) else {
+    let Some((far2, near2)) = cut_extent(r2, f2.slope, f2.secant, tilt2, plane.offset) else {
         return;
     };
     if far1.max(-far2) > SPIKE * radius {

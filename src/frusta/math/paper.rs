@@ -6,7 +6,7 @@
 //! the second cone until they match.
 
 use super::cone::{EndKind, Frustum};
-use super::join::{CuttingPlane, PosedJoint};
+use super::join::{CuttingPlane, PosedJoint, Tilt, cut_extent};
 use super::scalar::{Real, Vec3};
 
 /// Iterations on r1 at most; each gains about two digits.
@@ -39,8 +39,8 @@ pub(super) fn join(
     if iterate {
         for _ in 0..ITERATIONS {
             let (Some(minor1), Some(minor2)) = (
-                minor_axis(f1.axis, radius, f1.slope, &plane),
-                minor_axis(f2.axis, f2.radius, f2.slope, &plane),
+                minor_axis(&f1, radius, &plane),
+                minor_axis(&f2, f2.radius, &plane),
             ) else {
                 break;
             };
@@ -50,10 +50,12 @@ pub(super) fn join(
             }
             f2.radius *= ratio;
             f2.slope = (joints[second].radius - f2.radius) / f2.length;
+            f2.secant = (1.0 + f2.slope * f2.slope).sqrt();
             plane = cutting_plane(&f1, radius, &f2);
         }
         frusta[second].radius = f2.radius;
         frusta[second].slope = f2.slope;
+        frusta[second].secant = f2.secant;
     }
     let end = &mut frusta[first].end;
     end.normal = plane.normal;
@@ -101,8 +103,9 @@ fn cutting_plane(first: &Frustum, radius: Real, second: &Frustum) -> CuttingPlan
 
 /// Semi-minor axis of the ellipse that a plane cuts from a cone: the geometric mean of the cone's radii at
 /// the two ends of the major axis.
-fn minor_axis(axis: Vec3, radius: Real, slope: Real, plane: &CuttingPlane) -> Option<Real> {
-    let (y1, y2) = super::join::cut_extent(axis, radius, slope, plane)?;
-    let product = (radius + slope * y1) * (radius + slope * y2);
+fn minor_axis(frustum: &Frustum, radius: Real, plane: &CuttingPlane) -> Option<Real> {
+    let tilt = Tilt::of(plane.normal, frustum.axis);
+    let (y1, y2) = cut_extent(radius, frustum.slope, frustum.secant, tilt, plane.offset)?;
+    let product = (radius + frustum.slope * y1) * (radius + frustum.slope * y2);
     (product > 0.0).then(|| product.sqrt())
 }
