@@ -389,9 +389,9 @@ fn more_joints_than_the_limit_are_refused() {
     let swc: String = (0..count)
         .map(|id| format!("{id} 0 0 0 0 1 -1\n"))
         .collect();
-    refuses("a.swc", swc, &["4000000", "split"]);
+    refuses("a.swc", swc, &["2000000", "split"]);
     let csv = "0,0,0,0,0,1,1,0\n".repeat(count);
-    refuses("a.csv", format!("{HEADER}{csv}"), &["4000000", "split"]);
+    refuses("a.csv", format!("{HEADER}{csv}"), &["2000000", "split"]);
 }
 
 #[test]

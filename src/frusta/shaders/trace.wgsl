@@ -4,8 +4,8 @@
 
 #import bevy_pbr::mesh_bindings::mesh
 #import bevy_pbr::mesh_functions
-#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, load_frustum, reference_across, vec3_from}
-#import bevy_verdure::frusta::cast::{Ray, Hit, cast_ray, NO_ROOT, CONE}
+#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, load_frustum, reference_across, vec3_from, ROUND}
+#import bevy_verdure::frusta::cast::{Ray, Hit, cast_ray, NO_ROOT, CONE, START}
 #import bevy_verdure::frusta::bounds::{bounds, bounds_corner}
 #import bevy_verdure::frusta::surface::{SurfacePoint, surface_point, TAU}
 #import bevy_verdure::frusta::view::{
@@ -96,20 +96,22 @@ fn see(in: Varying, sample_mask: u32) -> Seen {
     seen.hit = cast_ray(Ray(seen.ray.origin, seen.ray.direction), seen.frustum, least_depth(), slack);
     seen.coverage = select(0u, sample_mask, seen.hit.t < NO_ROOT);
 #ifdef FRUSTA_MULTISAMPLED
-    // Coverage is the geometry's own: each sample casts its own ray, and the pixel is shaded once.
-    var coverage = 0u;
-    for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
-        let ray = pixel_ray(seen.place, seen.frustum.base, in.position.xy + sample_offset(i));
-        let hit = cast_ray(Ray(ray.origin, ray.direction), seen.frustum, least_depth(), slack);
-        if (sample_mask & (1u << i)) != 0u && hit.t < NO_ROOT {
-            coverage |= 1u << i;
-            if seen.hit.t >= NO_ROOT {
-                seen.hit = hit;
-                seen.ray = ray;
+    // Coverage is the geometry's own: along outlines each sample casts its own ray, and the pixel is shaded once.
+    if seen.hit.t >= NO_ROOT || !is_inside(seen, slack / SLACK) {
+        var coverage = 0u;
+        for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
+            let ray = pixel_ray(seen.place, seen.frustum.base, in.position.xy + sample_offset(i));
+            let hit = cast_ray(Ray(ray.origin, ray.direction), seen.frustum, least_depth(), slack);
+            if (sample_mask & (1u << i)) != 0u && hit.t < NO_ROOT {
+                coverage |= 1u << i;
+                if seen.hit.t >= NO_ROOT {
+                    seen.hit = hit;
+                    seen.ray = ray;
+                }
             }
         }
+        seen.coverage = coverage;
     }
-    seen.coverage = coverage;
 #endif
     seen.depth = buffer_depth(seen.hit.t);
 #ifdef FRUSTA_UNCLIPPED_DEPTH
@@ -128,6 +130,38 @@ fn least_depth() -> f32 {
 }
 
 #ifdef FRUSTA_MULTISAMPLED
+// True if a hit is so far inside the part it lies on that all rays of its pixel hit it: two pixels, seen at its slant,
+// from the part's outline and from the planes that end it. `pixel` is the width of one, in local metres.
+fn is_inside(seen: Seen, pixel: f32) -> bool {
+    let frustum = seen.frustum;
+    let point = seen.hit.point;
+    let tip = point - frustum.axis * frustum.length;
+    var normal: vec3<f32>;
+    var radius: f32;
+    var room: f32;
+    if seen.hit.part == CONE {
+        let y = dot(point, frustum.axis);
+        radius = frustum.radius + frustum.slope * y;
+        normal = normalize(point - frustum.axis * y) - frustum.axis * frustum.slope;
+        room = min(
+            dot(frustum.start.normal, point) - frustum.start.offset,
+            frustum.end.offset - dot(frustum.end.normal, tip),
+        );
+    } else if seen.hit.part == START {
+        radius = frustum.start.radius;
+        normal = point;
+        room = select(0.0, frustum.start.offset - dot(frustum.start.normal, point), frustum.start.kind == ROUND);
+    } else {
+        radius = frustum.end.radius;
+        normal = tip;
+        room = select(0.0, dot(frustum.end.normal, tip) - frustum.end.offset, frustum.end.kind == ROUND);
+    }
+    let d = seen.ray.direction;
+    let cosine = min(abs(dot(normal, d)) / (length(normal) * length(d)), 1.0);
+    let to_outline = radius * (1.0 - sqrt(1.0 - cosine * cosine));
+    return min(to_outline, room * cosine) > 2.0 * pixel;
+}
+
 // The standard sample positions, relative to the pixel's centre, in sixteenths of a pixel.
 fn sample_offset(i: u32) -> vec2<f32> {
 #if FRUSTA_SAMPLES == 2
