@@ -203,12 +203,12 @@ fn write_overlay(
     *smooth += (time.delta_secs() * 1e3 - *smooth) * 0.05;
     for mut text in &mut overlay {
         text.0 = format!(
-            "{:.1} ms a frame\n{} plants, {} segments\n{:.0} µs on cutting planes, {} KiB uploaded\n\
+            "{:.1} ms a frame\n{} plants, {} segments\n{:.2} ms on cutting planes, {} KiB uploaded\n\
              O: orbit   WASD EQ, mouse: fly",
             *smooth,
             stats.plants,
             stats.segments,
-            stats.cutting_planes.as_secs_f64() * 1e6,
+            stats.cutting_planes.as_secs_f64() * 1e3,
             stats.uploaded_bytes / 1024,
         );
     }
