@@ -9,7 +9,7 @@
 //!
 //! 1. Each plant's pose gives its joints' places ([`skeleton`](crate::skeleton)).
 //! 2. For plants that moved, cones and cutting planes are recomputed (`math/cone.rs`, `math/join.rs`), textures are lined up
-//!    from segment to segment (`math/surface.rs`), and all of it is packed into 64 bytes a joint (`records.rs`).
+//!    from segment to segment (`math/surface.rs`), and all of it is packed into 60 bytes a joint (`records.rs`).
 //! 3. Their bounds are recomputed for culling (`extent.rs`), and what changed is written to the GPU (`table.rs`,
 //!    `buffers.rs`). Plants that stand as their skeleton does share one copy: nothing is recomputed or written for them.
 //! 4. Bevy draws plants as instances of a mesh without positions (`mesh.rs`), with a material that extends the standard
@@ -26,7 +26,7 @@
 //!   planes and its iteration (Equations 3 to 5) are kept as [`Join::Paper`] and [`Join::PaperIterated`].
 //! * Sharp bends fall back from a mitre to a sphere; branches start inside their parent; ends are closed.
 //! * Of the quadratic's roots the first that lies on the frustum counts, not the nearest alone (Equation 10).
-//! * Silhouettes are smooth with MSAA: every sample casts its own ray, each pixel is shaded once.
+//! * Silhouettes are smooth with MSAA: along outlines every sample casts its own ray, each pixel is shaded once.
 //!
 //! # What it does not do
 //! Bevy's own mesh picking and CPU ray casts see no triangles here; physics needs colliders of its own. Storage
