@@ -8,6 +8,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use bevy::prelude::*;
+use bevy::time::TimeUpdateStrategy;
 use bevy_verdure::frusta::single::cone::{EndKind, Frustum};
 use bevy_verdure::frusta::single::join::{JoinKind, Link, PosedJoint, Skin, skin};
 use bevy_verdure::frusta::single::links::{joints_at_rest, links};
@@ -24,6 +25,9 @@ mod cactus;
 mod common;
 #[path = "../examples/dancing_cacti/dance.rs"]
 mod dance;
+
+/// Time between two frames.
+const FRAME: Duration = Duration::from_millis(16);
 
 /// A tree of `count` joints that forks at every eighth.
 fn tree(count: usize) -> (Vec<Link>, Vec<PosedJoint>) {
@@ -74,40 +78,8 @@ fn border<const I: usize>(mut borders: ResMut<Borders>) {
     borders.0[I] = Some(Instant::now());
 }
 
-/// The dancing cacti with borders between the plugin's system sets, on no device at all: what is timed is the main
-/// world's part, which is all of the plugin but the copy to the GPU.
-fn crowd() -> Headless {
-    let settings = bevy::render::settings::WgpuSettings {
-        backends: None,
-        ..default()
-    };
-    let mut crowd = Headless::with_settings(Duration::from_millis(16), settings, |app| {
-        app.add_plugins(VerdurePlugin)
-            .init_resource::<Borders>()
-            .add_systems(Update, dance::dance)
-            .add_systems(
-                PostUpdate,
-                (
-                    border::<0>
-                        .after(bevy::app::AnimationSystems)
-                        .before(VerdureSystems::Attach),
-                    border::<1>
-                        .after(VerdureSystems::Attach)
-                        .before(VerdureSystems::Pose),
-                    border::<2>
-                        .after(VerdureSystems::Pose)
-                        .before(VerdureSystems::CuttingPlanes),
-                    border::<3>
-                        .after(VerdureSystems::CuttingPlanes)
-                        .before(VerdureSystems::Bounds),
-                    border::<4>
-                        .after(VerdureSystems::Bounds)
-                        .before(VerdureSystems::Upload),
-                    border::<5>.after(VerdureSystems::Upload),
-                ),
-            );
-    });
-    let world = crowd.world();
+/// Plants the bodies of the dancing cacti: 2,158 segments.
+fn plant(world: &mut World) {
     let skin = world
         .resource_mut::<Assets<FrustaMaterial>>()
         .add(frusta_material(Color::WHITE));
@@ -124,37 +96,82 @@ fn crowd() -> Headless {
             dance::Dancer::new(cactus.trunk, cactus.arms, &mut dice),
         ));
     }
+}
+
+/// The dancing cacti in an app whose `PostUpdate` holds the plugin's systems and hardly another: what it takes is the
+/// plugin's part of a frame, short of the copy to the device.
+fn crowd() -> App {
+    let mut app = App::new();
+    app.add_plugins((
+        MinimalPlugins,
+        bevy::asset::AssetPlugin::default(),
+        bevy::image::ImagePlugin::default(),
+        bevy::mesh::MeshPlugin,
+    ))
+    .init_asset::<bevy::shader::Shader>()
+    .add_plugins(VerdurePlugin)
+    .init_resource::<Borders>()
+    .insert_resource(TimeUpdateStrategy::ManualDuration(FRAME))
+    .add_systems(Update, dance::dance)
+    .add_systems(
+        PostUpdate,
+        (
+            border::<0>.before(VerdureSystems::Attach),
+            border::<1>
+                .after(VerdureSystems::Attach)
+                .before(VerdureSystems::Pose),
+            border::<2>
+                .after(VerdureSystems::Pose)
+                .before(VerdureSystems::CuttingPlanes),
+            border::<3>
+                .after(VerdureSystems::CuttingPlanes)
+                .before(VerdureSystems::Bounds),
+            border::<4>
+                .after(VerdureSystems::Bounds)
+                .before(VerdureSystems::Upload),
+            border::<5>.after(VerdureSystems::Upload),
+        ),
+    );
+    app.finish();
+    app.cleanup();
+    plant(app.world_mut());
     for _ in 0..4 {
-        crowd.step();
+        app.update();
     }
-    let stats = crowd.world().resource::<FrustaStats>();
+    let stats = app.world().resource::<FrustaStats>();
     assert_eq!((stats.plants, stats.segments), (100, 2158));
-    crowd
+    assert!(stats.moved_joints > 2000, "they dance: {stats:?}");
+    app
 }
 
 /// The whole plugin, a frame of the dancing cacti, and its parts.
 fn frame(c: &mut Criterion) {
     let mut group = c.benchmark_group("dancing_cacti_frame");
     let mut crowd = crowd();
-    let parts = [
-        "whole",
-        "attach",
-        "pose",
-        "cutting_planes",
-        "bounds",
-        "upload",
-    ];
+    group.bench_function("whole", |b| {
+        b.iter_custom(|frames| {
+            let mut sum = Duration::ZERO;
+            for _ in 0..frames {
+                crowd.world_mut().run_schedule(First);
+                crowd.world_mut().run_schedule(Update);
+                let started = Instant::now();
+                crowd.world_mut().run_schedule(PostUpdate);
+                sum += started.elapsed();
+                crowd.world_mut().run_schedule(Last);
+                crowd.world_mut().clear_trackers();
+            }
+            sum
+        });
+    });
+    let parts = ["attach", "pose", "cutting_planes", "bounds", "upload"];
     for (part, name) in parts.into_iter().enumerate() {
         group.bench_function(name, |b| {
             b.iter_custom(|frames| {
                 let mut sum = Duration::ZERO;
                 for _ in 0..frames {
-                    crowd.step();
+                    crowd.update();
                     let borders = crowd.world().resource::<Borders>().0.map(Option::unwrap);
-                    sum += match part {
-                        0 => borders[5] - borders[0],
-                        part => borders[part] - borders[part - 1],
-                    };
+                    sum += borders[part + 1] - borders[part];
                 }
                 sum
             });
@@ -163,5 +180,40 @@ fn frame(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, cutting_planes, frame);
+/// The copy of a frame's changes to the device.
+fn copy(c: &mut Criterion) {
+    let mut group = c.benchmark_group("dancing_cacti_copy");
+    let mut crowd = Headless::new(FRAME, |app| {
+        app.add_plugins(VerdurePlugin)
+            .add_systems(Update, dance::dance);
+        let render_app = app.sub_app_mut(bevy::render::RenderApp);
+        render_app.init_resource::<Borders>().add_systems(
+            bevy::render::ExtractSchedule,
+            (
+                border::<0>.before(VerdureSystems::Upload),
+                border::<1>.after(VerdureSystems::Upload),
+            ),
+        );
+    });
+    plant(crowd.world());
+    for _ in 0..4 {
+        crowd.step();
+    }
+    assert!(crowd.world().resource::<FrustaStats>().uploaded_bytes > 100_000);
+    group.bench_function("copy", |b| {
+        b.iter_custom(|frames| {
+            let mut sum = Duration::ZERO;
+            for _ in 0..frames {
+                crowd.step();
+                let render_app = crowd.app().sub_app(bevy::render::RenderApp);
+                let borders = render_app.world().resource::<Borders>().0;
+                sum += borders[1].unwrap() - borders[0].unwrap();
+            }
+            sum
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, cutting_planes, frame, copy);
 criterion_main!(benches);

@@ -67,7 +67,7 @@ pub enum VerdureSystems {
     CuttingPlanes,
     /// [`Aabb`](bevy::camera::primitives::Aabb)s are recomputed for what moved.
     Bounds,
-    /// What changed is handed to the GPU.
+    /// What changed is gathered, and, in the render world's `ExtractSchedule`, copied to the GPU.
     Upload,
 }
 

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use bevy::camera::Hdr;
 use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraPlugin};
 use bevy::image::{ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
 use bevy::prelude::*;
@@ -137,6 +138,8 @@ pub fn camera(eye: Vec3, at: Vec3) -> impl Bundle {
     (
         MainCamera,
         Camera3d::default(),
+        // Tone mapping comes last, so that fog and sky of one colour look alike.
+        Hdr,
         Transform::from_translation(eye).looking_at(at, Vec3::Y),
         FreeCamera::default(),
     )

@@ -68,21 +68,24 @@ pub fn body(segments: usize, dice: &mut Dice) -> Cactus {
         let r = radius * dice.between(0.55, 0.68);
         let reach = radius + dice.between(0.16, 0.26);
         let rise = height * dice.between(0.22, 0.34);
+        // Out, round a quarter circle, and up.
+        let turn = reach * 0.5;
+        let (out_to, sin) = (reach - turn, core::f32::consts::FRAC_1_SQRT_2);
         let path = [
-            (0.62, 0.0, 0.85),
-            (1.0, 0.07, 1.0),
-            (1.12, 0.30, 1.04),
-            (1.14, 0.68, 1.0),
-            (1.13, 1.0, 0.8),
+            (out_to, 0.0, 0.9),
+            (out_to + turn * sin, turn * (1.0 - sin), 0.98),
+            (reach, turn, 1.03),
+            (reach * 1.02, 0.55 * (turn + rise), 1.02),
+            (reach * 1.02, rise, 0.8),
         ];
         let mut joints = Vec::new();
         let mut last = shoulder;
-        for (along, up, thick) in path.into_iter().skip(side) {
-            last = plant.joint(
-                last,
-                from + out * (reach * along) + Vec3::Y * (rise * up),
-                r * thick,
-            );
+        // The upper arm does without the fourth.
+        for (i, (along, up, thick)) in path.into_iter().enumerate() {
+            if side == 1 && i == 3 {
+                continue;
+            }
+            last = plant.joint(last, from + out * along + Vec3::Y * up, r * thick);
             joints.push(last);
         }
         joints

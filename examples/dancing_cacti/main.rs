@@ -31,11 +31,13 @@ struct Args {
 const SIDE: usize = 10;
 /// Segments of all bodies and flowers together, as in the paper's Table 1.
 const SEGMENTS: usize = 2158;
+/// Colour of the sky, and of what fades into it.
+const SKY: Color = Color::srgb(0.53, 0.71, 0.87);
 
 fn main() -> std::process::ExitCode {
     let args = Args::parse();
     let run = common::run("dancing_cacti", &args.common, |app| {
-        app.insert_resource(ClearColor(Color::srgb(0.53, 0.71, 0.87)))
+        app.insert_resource(ClearColor(SKY))
             .insert_resource(DirectionalLightShadowMap { size: 2048 })
             .insert_resource(GlobalAmbientLight {
                 color: Color::srgb(0.72, 0.82, 1.0),
@@ -91,7 +93,8 @@ fn stage(
     commands.spawn((
         common::camera(Vec3::new(-5.5, 3.4, 14.0), Vec3::new(0.0, 0.75, 1.5)),
         DistanceFog {
-            color: Color::srgb(0.70, 0.79, 0.87),
+            // The ground fades into the sky.
+            color: SKY,
             falloff: FogFalloff::Linear {
                 start: 30.0,
                 end: 160.0,

@@ -4,7 +4,7 @@ use bevy::camera::primitives::Aabb;
 use bevy::math::Vec3;
 
 use super::single::cone::{End, EndKind, Frustum};
-use super::single::join::{Tilt, cut_extent};
+use super::single::mitre::{CuttingPlane, Extent, cut_extent};
 
 /// The axis-aligned box, in local space, round all that some frusta draw. Each segment lies in the hull of a ball
 /// round each of its ends: the joint's sphere, or as far as the cut's ellipse reaches.
@@ -36,9 +36,21 @@ pub(crate) fn aabb(frusta: &[Frustum]) -> Aabb {
 
 /// Greatest distance from the joint of the frustum's end.
 fn reach(frustum: &Frustum, end: &End, at_joint: f32) -> f32 {
-    let tilt = Tilt::of(end.normal, frustum.axis);
-    let cut = cut_extent(at_joint, frustum.slope, frustum.secant, tilt, end.offset);
-    let (low, high) = cut.unwrap_or((-at_joint, at_joint));
+    let plane = CuttingPlane {
+        normal: end.normal,
+        offset: end.offset,
+    };
+    let cut = cut_extent(
+        &plane,
+        frustum.axis,
+        at_joint,
+        frustum.slope,
+        frustum.secant,
+    );
+    let Extent { low, high } = cut.unwrap_or(Extent {
+        low: -at_joint,
+        high: at_joint,
+    });
     let distance = |y: f32| y.hypot(at_joint + frustum.slope * y);
     let edge = distance(low).max(distance(high));
     match end.kind {

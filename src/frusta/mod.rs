@@ -8,7 +8,7 @@
 //! A frame goes like this:
 //!
 //! 1. Each plant's pose gives its joints' places ([`skeleton`](crate::skeleton)).
-//! 2. For plants that moved, cones and cutting planes are recomputed (`math/cone.rs`, `math/join.rs`), textures are lined up
+//! 2. For plants that moved, cones and cutting planes are recomputed (`math/cone.rs`, `math/join.rs`, `math/mitre.rs`), textures are lined up
 //!    from segment to segment (`math/surface.rs`), and all of it is packed into 60 bytes a joint (`records.rs`).
 //! 3. Their bounds are recomputed for culling (`extent.rs`), and what changed is written to the GPU (`table.rs`,
 //!    `buffers.rs`). Plants that stand as their skeleton does share one copy: nothing is recomputed or written for them.
@@ -122,7 +122,10 @@ impl Plugin for FrustaPlugin {
         if let Some(render_app) = app.get_sub_app_mut(RenderApp) {
             render_app
                 .init_resource::<buffers::FrustaBuffers>()
-                .add_systems(ExtractSchedule, buffers::upload);
+                .add_systems(
+                    ExtractSchedule,
+                    buffers::upload.in_set(VerdureSystems::Upload),
+                );
         }
     }
 

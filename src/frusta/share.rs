@@ -30,6 +30,8 @@ pub(crate) struct FrustaData {
     versions: HashMap<AssetId<Skeleton>, u32>,
     skeletons: HashMap<SkeletonKey, SharedSkeleton>,
     stances: HashMap<(SkeletonKey, Frusta), SharedStance>,
+    /// Plants that have a place in the tables, and their segments.
+    drawn: (usize, usize),
 }
 
 /// What all plants of a skeleton share, whatever their pose.
@@ -55,6 +57,7 @@ impl Default for FrustaData {
             versions: HashMap::default(),
             skeletons: HashMap::default(),
             stances: HashMap::default(),
+            drawn: (0, 0),
         }
     }
 }
@@ -64,6 +67,11 @@ impl FrustaData {
     pub(crate) fn key(&self, id: AssetId<Skeleton>) -> SkeletonKey {
         let version = self.versions.get(&id).copied().unwrap_or_default();
         SkeletonKey { id, version }
+    }
+
+    /// How many plants have a shape, and their segments.
+    pub(crate) fn drawn(&self) -> (usize, usize) {
+        self.drawn
     }
 
     /// Notes that a skeleton has changed.
@@ -120,6 +128,8 @@ impl FrustaData {
             unused: 0,
         };
         self.plants.write(slot, 0, &[record]);
+        self.drawn.0 += 1;
+        self.drawn.1 += linked.segments;
         Some(FrustaPlant {
             skeleton: key,
             settings,
@@ -133,6 +143,8 @@ impl FrustaData {
 
     /// Gives back what a plant had.
     pub(crate) fn detach(&mut self, plant: &FrustaPlant) {
+        self.drawn.0 -= 1;
+        self.drawn.1 -= plant.linked.segments;
         self.plants.free(plant.slot);
         match plant.own {
             Some(_) => self.joints.free(plant.joints),

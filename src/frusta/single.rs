@@ -20,6 +20,8 @@ pub mod cone;
 pub mod join;
 #[path = "math/links.rs"]
 pub mod links;
+#[path = "math/mitre.rs"]
+pub mod mitre;
 #[path = "math/paper.rs"]
 pub mod paper;
 #[path = "math/surface.rs"]

@@ -140,7 +140,7 @@ pub(crate) fn cut_planes(
 }
 
 /// Recomputes the bounds of the plants whose pose has changed.
-pub(crate) fn update_bounds(mut plants: Query<(&mut FrustaPlant, &mut Aabb)>) {
+pub(crate) fn update_bounds(mut plants: Query<(&mut FrustaPlant, &mut Aabb), With<PosedJoints>>) {
     plants.par_iter_mut().for_each(|(mut plant, mut aabb)| {
         let plant = plant.bypass_change_detection();
         let Some(own) = &mut plant.own else { return };
@@ -155,18 +155,15 @@ pub(crate) fn update_bounds(mut plants: Query<(&mut FrustaPlant, &mut Aabb)>) {
 pub(crate) fn collect(
     mut data: ResMut<FrustaData>,
     mut stats: ResMut<FrustaStats>,
-    mut plants: Query<&mut FrustaPlant>,
+    mut plants: Query<&mut FrustaPlant, With<PosedJoints>>,
     mut materials: ResMut<Assets<FrustaMaterial>>,
     mut announced: Local<[usize; 3]>,
 ) {
     let data = data.as_mut();
-    stats.plants = 0;
-    stats.segments = 0;
+    (stats.plants, stats.segments) = data.drawn();
     stats.moved_joints = 0;
     for mut plant in &mut plants {
         let plant = plant.bypass_change_detection();
-        stats.plants += 1;
-        stats.segments += plant.linked.segments;
         if let Some(own) = &mut plant.own {
             for range in own.changed.drain(..) {
                 stats.moved_joints += range.len();

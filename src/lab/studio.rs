@@ -4,6 +4,7 @@ use core::time::Duration;
 
 use bevy::camera::{RenderTarget, ScalingMode};
 use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
+use bevy::math::{DVec2, DVec3};
 use bevy::prelude::*;
 use bevy::render::render_resource::TextureFormat;
 
@@ -68,24 +69,26 @@ impl Shot {
         }
     }
 
-    /// The ray through the centre of a pixel, in world space; its direction is one metre of depth long.
-    pub fn ray(&self, x: f32, y: f32) -> (Vec3, Vec3) {
-        let camera = self.transform();
+    /// The ray through a point of the picture, in pixels, in world space; its direction is one metre of depth long. In
+    /// double precision, by the very matrices that the shaders are given.
+    pub fn ray(&self, x: f32, y: f32) -> (DVec3, DVec3) {
         let size = self.size.as_vec2();
-        let ndc = Vec2::new(2.0 * x / size.x - 1.0, 1.0 - 2.0 * y / size.y);
-        let aspect = size.x / size.y;
+        let mut projection = self.projection();
+        projection.update(size.x, size.y);
+        let p = projection.get_clip_from_view().as_dmat4();
+        let turn = Mat3::from_quat(self.transform().rotation).as_dmat3();
+        let (x, y, size) = (f64::from(x), f64::from(y), size.as_dvec2());
+        let ndc = DVec2::new(2.0 * x / size.x - 1.0, 1.0 - 2.0 * y / size.y);
+        let scale = DVec2::new(p.x_axis.x, p.y_axis.y);
+        let eye = self.eye.as_dvec3();
         match self.lens {
-            Lens::Perspective(fov) => {
-                let top = (0.5 * fov).tan();
-                let direction = Vec3::new(ndc.x * top * aspect, ndc.y * top, -1.0);
-                (self.eye, camera.rotation * direction)
+            Lens::Perspective(_) => {
+                let direction = ((ndc + p.z_axis.xy()) / scale).extend(-1.0);
+                (eye, turn * direction)
             }
-            Lens::Orthographic(height) => {
-                let offset = Vec3::new(ndc.x * aspect, ndc.y, 0.0) * (0.5 * height);
-                (
-                    self.eye + camera.rotation * offset,
-                    camera.rotation * Vec3::NEG_Z,
-                )
+            Lens::Orthographic(_) => {
+                let offset = ((ndc - p.w_axis.xy()) / scale).extend(0.0);
+                (eye + turn * offset, turn * DVec3::NEG_Z)
             }
         }
     }

@@ -4,8 +4,9 @@ use bevy::math::{DVec3, Vec3};
 use bevy::prelude::*;
 use bevy_verdure::frusta::double::cast::{Ray, cast_ray};
 use bevy_verdure::frusta::double::cone::{Cone, EndKind, Frustum};
-use bevy_verdure::frusta::double::join::{JoinKind, Skin, cut_extent, mitre_plane, skin};
+use bevy_verdure::frusta::double::join::{JoinKind, Skin, skin};
 use bevy_verdure::frusta::double::links::{joints_at_rest, links};
+use bevy_verdure::frusta::double::mitre::mitre;
 use bevy_verdure::frusta::{double, single};
 use bevy_verdure::lab::reference::{ReferenceJoin, seam_gap, swept_sphere_distance};
 use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
@@ -61,15 +62,10 @@ fn points_of_one_cone_on_a_mitres_plane_lie_on_the_other() {
             ..c1
         };
         let c2 = Cone::touching(second, l2, radius, after);
-        let Some((plane, [tilt1, tilt2])) = mitre_plane(&c1, &c2, radius) else {
+        let Some(mitre) = mitre(&c1, &c2, radius) else {
             continue;
         };
-        let (Some(_), Some(_)) = (
-            cut_extent(c1.radius, c1.slope, c1.secant, tilt1, plane.offset),
-            cut_extent(c2.radius, c2.slope, c2.secant, tilt2, plane.offset),
-        ) else {
-            continue;
-        };
+        let plane = mitre.plane;
         cuts += 1;
         let (u, w) = first.any_orthonormal_pair();
         for i in 0..32 {
@@ -305,14 +301,14 @@ fn the_shaders_compute_what_the_plain_files_compute() {
         studio.uproot(plant);
         for y in 0..192 {
             for x in 0..256 {
-                let (eye, direction) = shot.ray(x as f32 + 0.5, y as f32 + 0.5);
+                let (_, direction) = shot.ray(x as f32 + 0.5, y as f32 + 0.5);
                 let nearest = frusta
                     .iter()
                     .enumerate()
                     .filter_map(|(i, frustum)| {
                         let ray = single::cast::Ray {
-                            origin: eye - frustum.base,
-                            direction,
+                            origin: shot.eye - frustum.base,
+                            direction: direction.as_vec3(),
                         };
                         Some((
                             i,

@@ -130,7 +130,7 @@ fn motion_vectors_match_the_pose() {
                 continue;
             };
             let (origin, direction) = shot.ray(x as f32 + 0.5, y as f32 + 0.5);
-            let point = origin + direction * seen.depth;
+            let point = (origin + direction * f64::from(seen.depth)).as_vec3();
             let segment = seen.segment as usize;
             let local = moved.to_matrix().inverse().transform_point3(point);
             let in_segment = after

@@ -145,14 +145,21 @@ fn cone_roots(p: Vec3, d: Vec3, dd: Real, frustum: &Frustum) -> (Real, Real) {
 /// True if a point of the infinite cone, relative to the base, lies on the proper nappe and between both planes
 /// of a frustum, widened by `slack` metres.
 fn on_frustum(point: Vec3, slack: Real, frustum: &Frustum) -> bool {
+    let tip = point - frustum.axis * frustum.length;
     frustum.radius + frustum.slope * point.dot(frustum.axis) > 0.0
-        && frustum.start.normal.dot(point) - frustum.start.offset >= -slack
-        && frustum
-            .end
-            .normal
-            .dot(point - frustum.axis * frustum.length)
-            - frustum.end.offset
-            <= slack
+        && frustum.start.normal.dot(point) - frustum.start.offset
+            >= -slack_at(frustum.start.kind, slack)
+        && frustum.end.normal.dot(tip) - frustum.end.offset <= slack_at(frustum.end.kind, slack)
+}
+
+/// What a plane is widened by: where the surface goes on beyond it, all of `slack`; at a disc's rim, where it turns
+/// off, just enough for roundings.
+fn slack_at(kind: EndKind, slack: Real) -> Real {
+    if kind == EndKind::Flat {
+        0.1 * slack
+    } else {
+        slack
+    }
 }
 
 /// The first root with a cap, with t measured from `x`, which is relative to the cap's joint. The cap lies on the

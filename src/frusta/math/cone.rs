@@ -9,7 +9,7 @@ use super::scalar::{Real, Vec3};
 /// An infinite cone (or cylinder), |P⊥| = radius + slope·y, about an axis.
 ///
 /// Positions are relative to the cone's base, a point on the axis; `y` is the axial distance from it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cone {
     /// Unit direction of the axis, M in the paper.
     pub axis: Vec3,
@@ -28,13 +28,30 @@ impl Cone {
     ///
     /// The caller makes sure that neither sphere contains the other ([`touches_both`]).
     pub fn touching(axis: Vec3, length: Real, radius_from: Real, radius_to: Real) -> Self {
-        let s = (radius_from - radius_to) / length;
+        Self::opening(axis, radius_from, (radius_from - radius_to) / length)
+    }
+
+    /// The cone that touches a sphere of `radius_from` about the base and whose half-angle has the signed sine `s`,
+    /// positive where it narrows along its axis.
+    #[inline]
+    pub fn opening(axis: Vec3, radius_from: Real, s: Real) -> Self {
         let secant = 1.0 / ((1.0 - s) * (1.0 + s)).sqrt();
         Self {
             axis,
             radius: radius_from * secant,
             slope: -s * secant,
             secant,
+        }
+    }
+
+    /// The cone with a cross-section of `radius` at its base.
+    #[inline]
+    pub fn through(axis: Vec3, radius: Real, slope: Real) -> Self {
+        Self {
+            axis,
+            radius,
+            slope,
+            secant: (1.0 + slope * slope).sqrt(),
         }
     }
 

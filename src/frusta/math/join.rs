@@ -1,17 +1,11 @@
 //! Joins: how the frusta of a limb meet (§2.2, made exact).
 //!
-//! A joint's radius ρ is that of a sphere which the cones of all its segments touch. Two cones that touch one
-//! sphere meet in plane curves; with X measured from the joint the cutting plane is
-//!
-//! ```text
-//! (M1/c1 + M2/c2) · X = ρ (s1/c1 + s2/c2)
-//! ```
-//!
-//! The first cone keeps the side ≤, the second ≥. In terms of slopes, k = −s/c, the right side is −ρ (k1 + k2).
-//! Where such a mitre would reach past its segment, or the plane no longer cuts an ellipse, the join is round:
+//! A joint's radius is that of a sphere which the cones of all its segments touch, so that neighbours meet in a plane
+//! ([`mitre`](super::mitre)). The first cone keeps the side ≤ of it, the second ≥. Where such a mitre would reach past its segment, or the plane no longer cuts an ellipse, the join is round:
 //! both cones end on the circles where they touch the sphere, and the sphere fills the gap.
 
 use super::cone::{Cone, End, EndKind, Frustum, WHOLE, touches_both};
+use super::mitre::{CuttingPlane, mitre};
 use super::paper;
 use super::scalar::{Real, Vec3};
 
@@ -67,94 +61,11 @@ pub struct Skin {
     pub ends: EndKind,
 }
 
-/// A cutting plane, normal·X = offset with X measured from the joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CuttingPlane {
-    /// Unit normal, pointing along the limb.
-    pub normal: Vec3,
-    /// Signed distance from the joint, in metres.
-    pub offset: Real,
-}
-
-/// Below this share of its greatest length the sum of both axes is taken for a fold, which has no mitre.
-const FOLD: Real = 1e-4;
-/// How far a plane's tilt stays from one that cuts a parabola: cosine of the tilt above |s|.
-const ELLIPSE: Real = 1e-4;
 /// Share of a segment that must be left between its two ends.
 const SPACING: Real = 1e-4;
 /// How far a mitre may reach past its joint on the outside of a bend, in radii of the joint. Where cones widen
 /// towards a joint the outside grows without bound as the bend nears the last one that has an ellipse.
 const SPIKE: Real = 4.0;
-
-/// A cutting plane's tilt against a cone's axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tilt {
-    /// Cosine of the angle between the plane's normal and the axis.
-    pub cosine: Real,
-    /// Sine of that angle, not negative.
-    pub sine: Real,
-}
-
-impl Tilt {
-    /// The tilt of a plane with unit `normal` against a unit `axis`. The sine comes from the cross product: it keeps its
-    /// digits where the limb runs straight.
-    #[inline]
-    pub fn of(normal: Vec3, axis: Vec3) -> Self {
-        Self {
-            cosine: normal.dot(axis),
-            sine: normal.cross(axis).length(),
-        }
-    }
-}
-
-/// The plane in which two cones meet that touch a sphere of `radius` about the joint, with its tilt against both;
-/// `None` at a fold.
-#[inline]
-pub fn mitre_plane(first: &Cone, second: &Cone, radius: Real) -> Option<(CuttingPlane, [Tilt; 2])> {
-    let (w1, w2) = (first.secant, second.secant);
-    let normal = first.axis * w1 + second.axis * w2;
-    let length = normal.length();
-    if length <= FOLD * (w1 + w2) {
-        return None;
-    }
-    let scale = 1.0 / length;
-    let plane = CuttingPlane {
-        normal: normal * scale,
-        offset: -radius * (first.slope + second.slope) * scale,
-    };
-    // With the bend between the axes: normal·M1 = w1 + w2 cos, |normal × M1| = w2 sin.
-    let cosine = first.axis.dot(second.axis);
-    let sine = first.axis.cross(second.axis).length();
-    let tilt1 = Tilt {
-        cosine: (w1 + w2 * cosine) * scale,
-        sine: w2 * sine * scale,
-    };
-    let tilt2 = Tilt {
-        cosine: (w1 * cosine + w2) * scale,
-        sine: w1 * sine * scale,
-    };
-    Some((plane, [tilt1, tilt2]))
-}
-
-/// Least and greatest axial distance, from the joint, of the ellipse that a plane of this `tilt` and `offset` cuts from
-/// a cone of radius `radius` at the joint; `None` if the curve is no ellipse.
-#[inline]
-pub fn cut_extent(
-    radius: Real,
-    slope: Real,
-    secant: Real,
-    tilt: Tilt,
-    offset: Real,
-) -> Option<(Real, Real)> {
-    let Tilt { cosine: m, sine: q } = tilt;
-    // Tilt and opening leave an ellipse while m > |s|, that is m/c > |k|.
-    if (m - ELLIPSE) * secant <= slope.abs() {
-        return None;
-    }
-    let y1 = (offset - radius * q) / (m + slope * q);
-    let y2 = (offset + radius * q) / (m - slope * q);
-    Some((y1.min(y2), y1.max(y2)))
-}
 
 /// Recomputes the frusta of a posed skeleton: cones, cutting planes and ends, but not their references
 /// ([`align`](super::surface::align) does). The slices have one entry a joint; the entry of a root joint, which ends no segment,
@@ -164,26 +75,17 @@ pub fn cut_extent(
 /// If the slices differ in length or a link names a joint outside them.
 pub fn skin(links: &[Link], joints: &[PosedJoint], skin: Skin, frusta: &mut [Frustum]) {
     assert!(links.len() == joints.len() && joints.len() == frusta.len());
-    for (i, frustum) in frusta.iter_mut().enumerate() {
-        *frustum = round_frustum(i, links, joints, skin.join);
-    }
     match skin.join {
-        JoinKind::Round => {}
-        JoinKind::Mitre => {
-            for (first, second) in joins(links) {
-                mitre(first, second, joints[first].radius, frusta);
-            }
-            // A mitre stays where both its segments have room for it. `reach` is left as it is when a join is
-            // made round, so that every join is judged by the same figures, whatever the order.
-            for (first, second) in joins(links) {
-                if frusta[first].end.kind == EndKind::Cut
-                    && !(has_room(&frusta[first]) && has_room(&frusta[second]))
-                {
-                    make_round(first, second, frusta);
-                }
+        JoinKind::Mitre => mitre_joins(links, joints, frusta),
+        JoinKind::Round => {
+            for (i, frustum) in frusta.iter_mut().enumerate() {
+                round_frustum(i, links, joints, skin.join, frustum);
             }
         }
         JoinKind::Paper | JoinKind::PaperIterated => {
+            for (i, frustum) in frusta.iter_mut().enumerate() {
+                round_frustum(i, links, joints, skin.join, frustum);
+            }
             let iterate = skin.join == JoinKind::PaperIterated;
             for (first, second) in joins(links) {
                 paper::join(first, second, joints, iterate, frusta);
@@ -194,6 +96,46 @@ pub fn skin(links: &[Link], joints: &[PosedJoint], skin: Skin, frusta: &mut [Fru
         for i in 0..links.len() {
             flatten_ends(i, links, skin.join, frusta);
         }
+    }
+}
+
+/// Skins with mitres where their segments have room for them. In one pass: a parent's frustum is there before its
+/// child's.
+fn mitre_joins(links: &[Link], joints: &[PosedJoint], frusta: &mut [Frustum]) {
+    // The last cone stays in registers: it is most often the next one's first.
+    let mut last = (usize::MAX, Cone::default());
+    for i in 0..frusta.len() {
+        let (before, from_here) = frusta.split_at_mut(i);
+        let second = &mut from_here[0];
+        let cone = round_frustum(i, links, joints, JoinKind::Mitre, second);
+        if let Some(first) = predecessor(links, i) {
+            let first_cone = if first == last.0 {
+                last.1
+            } else {
+                before[first].cone()
+            };
+            let radius = joints[first].radius;
+            cut(&mut before[first], &first_cone, second, &cone, radius);
+            // Now that both ends of the first are known, so is what becomes of the join before it.
+            if let Some(zeroth) = predecessor(links, first) {
+                settle(zeroth, first, frusta);
+            }
+            if links[i].next == NONE {
+                settle(first, i, frusta);
+            }
+        }
+        last = (i, cone);
+    }
+}
+
+/// A mitre stays where both its segments have room for it. `reach` is left as it is when a join is made round, so
+/// that every join is judged by the same figures, whatever the order.
+#[inline(always)]
+fn settle(first: usize, second: usize, frusta: &mut [Frustum]) {
+    if frusta[first].end.kind == EndKind::Cut
+        && !(has_room(&frusta[first]) && has_room(&frusta[second]))
+    {
+        make_round(first, second, frusta);
     }
 }
 
@@ -235,27 +177,40 @@ fn flatten(end: &mut End) {
     end.reach = 0.0;
 }
 
-/// The joins of a skeleton: pairs of a segment and the one that continues its limb.
-fn joins(links: &[Link]) -> impl Iterator<Item = (usize, usize)> + '_ {
-    links.iter().enumerate().filter_map(|(i, link)| {
-        let first = link.parent as usize;
-        (link.continues && link.parent != NONE && links[first].parent != NONE).then_some((first, i))
-    })
+/// The segment whose limb segment `i` continues.
+#[inline]
+fn predecessor(links: &[Link], i: usize) -> Option<usize> {
+    let link = &links[i];
+    let first = link.parent as usize;
+    (link.continues && link.parent != NONE && links[first].parent != NONE).then_some(first)
 }
 
-/// The frustum of segment `i` as if every join were round.
-#[inline]
-fn round_frustum(i: usize, links: &[Link], joints: &[PosedJoint], join: JoinKind) -> Frustum {
-    let link = links[i];
+/// The joins of a skeleton: pairs of a segment and the one that continues its limb.
+fn joins(links: &[Link]) -> impl Iterator<Item = (usize, usize)> + '_ {
+    (0..links.len()).filter_map(|i| Some((predecessor(links, i)?, i)))
+}
+
+/// Makes the frustum of segment `i` as if every join were round, and returns its cone. In place, since a copy would
+/// wait for what was only just written.
+#[inline(always)]
+fn round_frustum(
+    i: usize,
+    links: &[Link],
+    joints: &[PosedJoint],
+    join: JoinKind,
+    frustum: &mut Frustum,
+) -> Cone {
+    let link = &links[i];
     if link.parent == NONE {
-        return Frustum {
+        *frustum = Frustum {
             base: joints[i].position,
             radius: -1.0,
             axis: Vec3::Y,
             ..Frustum::default()
         };
+        return Cone::default();
     }
-    let (from, to) = (joints[link.parent as usize], joints[i]);
+    let (from, to) = (&joints[link.parent as usize], &joints[i]);
     let begins_root = link.continues && links[link.parent as usize].parent == NONE;
     // A branch starts on its parent's axis with its own radius and runs out through the surface. Its start
     // lies inside the joint's sphere, so it needs no cap.
@@ -266,88 +221,100 @@ fn round_frustum(i: usize, links: &[Link], joints: &[PosedJoint], join: JoinKind
     };
     let across = to.position - from.position;
     let length = across.length();
+    frustum.base = from.position;
+    frustum.length = length;
     let paper = matches!(join, JoinKind::Paper | JoinKind::PaperIterated);
-    let mut frustum = Frustum {
-        base: from.position,
-        length,
-        ..Frustum::default()
-    };
-    frustum.start.radius = radius_from;
-    frustum.end.radius = to.radius;
-    if paper && length > 0.0 {
-        frustum.axis = across / length;
-        frustum.radius = radius_from;
-        frustum.slope = (to.radius - radius_from) / length;
-        frustum.secant = (1.0 + frustum.slope * frustum.slope).sqrt();
-        paper::set_ends(&mut frustum);
-    } else if touches_both(length, radius_from, to.radius) {
-        let cone = Cone::touching(across / length, length, radius_from, to.radius);
-        frustum.axis = cone.axis;
-        frustum.radius = cone.radius;
-        frustum.slope = cone.slope;
-        frustum.secant = cone.secant;
-        let sine = cone.sine();
-        set_contact(&mut frustum.start, cone.axis, sine, 1.0);
-        set_contact(&mut frustum.end, cone.axis, sine, -1.0);
+    if !paper && !touches_both(length, radius_from, to.radius) || length == 0.0 {
+        lone_sphere(frustum, across, [radius_from, to.radius], begins_root);
+        return Cone::default();
+    }
+    let start_kind = if begins_root {
+        EndKind::Round
     } else {
-        return lone_sphere(frustum, across, begins_root);
-    }
-    if begins_root {
-        frustum.start.kind = EndKind::Round;
-    }
-    frustum.end.kind = EndKind::Round;
-    frustum
+        EndKind::Cut
+    };
+    let inverse = 1.0 / length;
+    let axis = across * inverse;
+    let cone = if paper {
+        Cone::through(axis, radius_from, (to.radius - radius_from) * inverse)
+    } else {
+        Cone::opening(axis, radius_from, (radius_from - to.radius) * inverse)
+    };
+    frustum.axis = axis;
+    frustum.radius = cone.radius;
+    frustum.slope = cone.slope;
+    frustum.secant = cone.secant;
+    // The paper's ends lie across the axis through the joints, others on the circle where the cone touches the sphere.
+    let sine = if paper {
+        0.0
+    } else {
+        (radius_from - to.radius) * inverse
+    };
+    frustum.start = contact(axis, radius_from, sine, 1.0, start_kind);
+    frustum.end = contact(axis, to.radius, sine, -1.0, EndKind::Round);
+    cone
 }
 
-/// Puts an end's plane through the circle where the cone touches the joint's sphere.
-#[inline]
-fn set_contact(end: &mut End, axis: Vec3, sine: Real, inward: Real) {
-    end.normal = axis;
-    end.offset = end.radius * sine;
-    end.reach = (end.offset * inward).max(0.0);
+/// An end with its plane through the circle where the cone touches the joint's sphere.
+#[inline(always)]
+fn contact(axis: Vec3, radius: Real, sine: Real, inward: Real, kind: EndKind) -> End {
+    let offset = radius * sine;
+    End {
+        normal: axis,
+        offset,
+        radius,
+        reach: (offset * inward).max(0.0),
+        kind,
+    }
 }
 
 /// A segment of which one sphere contains the other is the larger sphere. Where that is the sphere at its
 /// base it belongs to the segment that ends there, unless none does.
-fn lone_sphere(mut frustum: Frustum, across: Vec3, begins_root: bool) -> Frustum {
-    frustum.radius = -1.0;
-    frustum.slope = 0.0;
-    frustum.axis = across.try_normalize().unwrap_or(Vec3::Y);
-    frustum.start.normal = frustum.axis;
-    frustum.end.normal = frustum.axis;
-    if frustum.end.radius >= frustum.start.radius {
-        frustum.end.kind = EndKind::Round;
-        frustum.end.offset = -WHOLE;
+fn lone_sphere(frustum: &mut Frustum, across: Vec3, radii: [Real; 2], begins_root: bool) {
+    let axis = across.try_normalize().unwrap_or(Vec3::Y);
+    let [mut start, mut end] = radii.map(|radius| End {
+        normal: axis,
+        radius,
+        ..End::default()
+    });
+    if end.radius >= start.radius {
+        end.kind = EndKind::Round;
+        end.offset = -WHOLE;
     } else if begins_root {
-        frustum.start.kind = EndKind::Round;
-        frustum.start.offset = WHOLE;
+        start.kind = EndKind::Round;
+        start.offset = WHOLE;
     }
-    frustum
+    *frustum = Frustum {
+        base: frustum.base,
+        length: frustum.length,
+        axis,
+        radius: -1.0,
+        start,
+        end,
+        ..Frustum::default()
+    };
 }
 
-/// Cuts two frusta along the plane in which they meet, if there is one.
-#[inline]
-fn mitre(first: usize, second: usize, radius: Real, frusta: &mut [Frustum]) {
-    let (f1, f2) = (&frusta[first], &frusta[second]);
-    if !(f1.has_cone() && f2.has_cone()) {
+/// Cuts two frusta along the plane in which their cones meet, if there is one.
+#[inline(always)]
+fn cut(
+    first: &mut Frustum,
+    first_cone: &Cone,
+    second: &mut Frustum,
+    second_cone: &Cone,
+    radius: Real,
+) {
+    if !(first_cone.radius > 0.0 && second_cone.radius > 0.0) {
         return;
     }
-    let Some((plane, [tilt1, tilt2])) = mitre_plane(&f1.cone(), &f2.cone(), radius) else {
+    let Some(mitre) = mitre(first_cone, second_cone, radius) else {
         return;
     };
-    // Both cones touch the sphere: at the joint their radii are ρ/c.
-    let (r1, r2) = (radius * f1.secant, radius * f2.secant);
-    let Some((near1, far1)) = cut_extent(r1, f1.slope, f1.secant, tilt1, plane.offset) else {
-        return;
-    };
-    let Some((far2, near2)) = cut_extent(r2, f2.slope, f2.secant, tilt2, plane.offset) else {
-        return;
-    };
-    if far1.max(-far2) > SPIKE * radius {
+    if mitre.first.high > SPIKE * radius || -mitre.second.low > SPIKE * radius {
         return;
     }
-    set_cut(&mut frusta[first].end, &plane, -near1);
-    set_cut(&mut frusta[second].start, &plane, near2);
+    set_cut(&mut first.end, &mitre.plane, -mitre.first.low);
+    set_cut(&mut second.start, &mitre.plane, mitre.second.high);
 }
 
 /// Opens an end at a cutting plane. Its reach is the further of the plane's and that of the contact circle, which
@@ -356,7 +323,9 @@ fn mitre(first: usize, second: usize, radius: Real, frusta: &mut [Frustum]) {
 fn set_cut(end: &mut End, plane: &CuttingPlane, reach: Real) {
     end.normal = plane.normal;
     end.offset = plane.offset;
-    end.reach = end.reach.max(reach);
+    if reach > end.reach {
+        end.reach = reach;
+    }
     end.kind = EndKind::Cut;
 }
 

@@ -6,7 +6,8 @@
 //! the second cone until they match.
 
 use super::cone::{EndKind, Frustum};
-use super::join::{CuttingPlane, PosedJoint, Tilt, cut_extent};
+use super::join::PosedJoint;
+use super::mitre::{CuttingPlane, cut_extent};
 use super::scalar::{Real, Vec3};
 
 /// Iterations on r1 at most; each gains about two digits.
@@ -15,12 +16,6 @@ const ITERATIONS: usize = 32;
 const MATCH: Real = 4.0 * Real::EPSILON;
 /// Smallest sine between two outlines that are taken to meet in a point.
 const PARALLEL: Real = 1e-6;
-
-/// Ends a frustum in planes across its axis through its joints.
-pub(super) fn set_ends(frustum: &mut Frustum) {
-    frustum.start.normal = frustum.axis;
-    frustum.end.normal = frustum.axis;
-}
 
 /// Cuts two frusta at the plane of Equations 3 to 5.
 pub(super) fn join(
@@ -104,8 +99,8 @@ fn cutting_plane(first: &Frustum, radius: Real, second: &Frustum) -> CuttingPlan
 /// Semi-minor axis of the ellipse that a plane cuts from a cone: the geometric mean of the cone's radii at
 /// the two ends of the major axis.
 fn minor_axis(frustum: &Frustum, radius: Real, plane: &CuttingPlane) -> Option<Real> {
-    let tilt = Tilt::of(plane.normal, frustum.axis);
-    let (y1, y2) = cut_extent(radius, frustum.slope, frustum.secant, tilt, plane.offset)?;
-    let product = (radius + frustum.slope * y1) * (radius + frustum.slope * y2);
+    let (slope, secant) = (frustum.slope, frustum.secant);
+    let cut = cut_extent(plane, frustum.axis, radius, slope, secant)?;
+    let product = (radius + slope * cut.low) * (radius + slope * cut.high);
     (product > 0.0).then(|| product.sqrt())
 }

@@ -128,9 +128,14 @@ fn cone_roots(p: vec3<f32>, d: vec3<f32>, dd: f32, frustum: Frustum) -> vec2<f32
 }
 
 fn on_frustum(point: vec3<f32>, slack: f32, frustum: Frustum) -> bool {
+    let tip = point - frustum.axis * frustum.length;
     return frustum.radius + frustum.slope * dot(point, frustum.axis) > 0.0
-        && dot(frustum.start.normal, point) - frustum.start.offset >= -slack
-        && dot(frustum.end.normal, point - frustum.axis * frustum.length) - frustum.end.offset <= slack;
+        && dot(frustum.start.normal, point) - frustum.start.offset >= -slack_at(frustum.start.kind, slack)
+        && dot(frustum.end.normal, tip) - frustum.end.offset <= slack_at(frustum.end.kind, slack);
+}
+
+fn slack_at(kind: u32, slack: f32) -> f32 {
+    return select(slack, 0.1 * slack, kind == FLAT);
 }
 
 fn cap_root(

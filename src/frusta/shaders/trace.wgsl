@@ -4,8 +4,8 @@
 
 #import bevy_pbr::mesh_bindings::mesh
 #import bevy_pbr::mesh_functions
-#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, load_frustum, reference_across, vec3_from, ROUND}
-#import bevy_verdure::frusta::cast::{Ray, Hit, cast_ray, NO_ROOT, CONE, START}
+#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, load_frustum, reference_across, vec3_from, ROUND, FLAT}
+#import bevy_verdure::frusta::cast::{Ray, Hit, cast_ray, NO_ROOT, CONE, START, END}
 #import bevy_verdure::frusta::bounds::{bounds, bounds_corner}
 #import bevy_verdure::frusta::surface::{SurfacePoint, surface_point, TAU}
 #import bevy_verdure::frusta::view::{
@@ -97,17 +97,26 @@ fn see(in: Varying, sample_mask: u32) -> Seen {
     seen.coverage = select(0u, sample_mask, seen.hit.t < NO_ROOT);
 #ifdef FRUSTA_MULTISAMPLED
     // Coverage is the geometry's own: along outlines each sample casts its own ray, and the pixel is shaded once.
-    if seen.hit.t >= NO_ROOT || !is_inside(seen, slack / SLACK) {
+    var faces = seen.hit.t < NO_ROOT && is_facing(seen.frustum, seen.hit, seen.ray.direction);
+    if !faces || !is_inside(seen, slack / SLACK) {
         var coverage = 0u;
         for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
             let ray = pixel_ray(seen.place, seen.frustum.base, in.position.xy + sample_offset(i));
             let hit = cast_ray(Ray(ray.origin, ray.direction), seen.frustum, least_depth(), slack);
-            if (sample_mask & (1u << i)) != 0u && hit.t < NO_ROOT {
+            if (sample_mask & (1u << i)) == 0u || hit.t >= NO_ROOT {
+                continue;
+            }
+            // Through the cut a ray may see the far wall from within, where its neighbour's near side hides it. It must not
+            // lend its depth and its dark side to samples of the near side.
+            let sample_faces = is_facing(seen.frustum, hit, ray.direction);
+            if seen.hit.t >= NO_ROOT || sample_faces && !faces {
+                seen.hit = hit;
+                seen.ray = ray;
+                faces = sample_faces;
+                coverage = 0u;
+            }
+            if sample_faces == faces {
                 coverage |= 1u << i;
-                if seen.hit.t >= NO_ROOT {
-                    seen.hit = hit;
-                    seen.ray = ray;
-                }
             }
         }
         seen.coverage = coverage;
@@ -130,6 +139,21 @@ fn least_depth() -> f32 {
 }
 
 #ifdef FRUSTA_MULTISAMPLED
+// True if a ray hits the surface from outside.
+fn is_facing(frustum: Frustum, hit: Hit, direction: vec3<f32>) -> bool {
+    var normal = hit.point;
+    if hit.part == CONE {
+        let y = dot(hit.point, frustum.axis);
+        let radial = hit.point - frustum.axis * y;
+        normal = radial - frustum.axis * (frustum.slope * length(radial));
+    } else if hit.part == END {
+        normal = select(hit.point - frustum.axis * frustum.length, frustum.axis, frustum.end.kind == FLAT);
+    } else if frustum.start.kind == FLAT {
+        normal = -frustum.axis;
+    }
+    return dot(normal, direction) <= 0.0;
+}
+
 // True if a hit is so far inside the part it lies on that all rays of its pixel hit it: two pixels, seen at its slant,
 // from the part's outline and from the planes that end it. `pixel` is the width of one, in local metres.
 fn is_inside(seen: Seen, pixel: f32) -> bool {
