@@ -84,6 +84,7 @@ impl Plugin for FrustaPlugin {
         load_shader_library!(app, "shaders/bounds.wgsl");
         load_shader_library!(app, "shaders/surface.wgsl");
         load_shader_library!(app, "shaders/view.wgsl");
+        load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/trace.wgsl");
         load_shader_library!(app, "shaders/material.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");

@@ -341,6 +341,55 @@ fn multisampled_edges_have_their_coverage() {
 }
 
 #[test]
+fn no_far_wall_shows_through_the_cuts_of_multisampled_frusta() {
+    // Many cuts across a limb lit from the eye: only the inside of its far wall is dark.
+    let mut limb = Skeleton::builder();
+    let mut last = limb.root(Vec3::new(0.0, -1.0, 0.0), 0.12);
+    for i in 1..=60 {
+        let h = i as f32 / 30.0 - 1.0;
+        last = limb.joint(last, Vec3::new(0.15 * (h * 9.0).sin(), h, 0.0), 0.12);
+    }
+    let mut studio = Studio::default();
+    let shot = shot(Vec3::new(0.3, 0.7, 3.0), Vec3::ZERO);
+    studio.world().spawn((
+        DirectionalLight {
+            illuminance: 8_000.0,
+            ..default()
+        },
+        shot.transform(),
+    ));
+    let skeleton = limb.build().unwrap();
+    studio.plant(skeleton, Frusta::default(), Transform::IDENTITY);
+    let figures = studio.measure(&shot);
+    let camera = studio.camera();
+    let plain = studio.photograph(&shot, Color::BLACK);
+    studio.world().entity_mut(camera).insert(Msaa::Sample4);
+    let smooth = studio.photograph(&shot, Color::BLACK);
+    let forward = *shot.transform().forward();
+    let mut inside = 0;
+    for y in 1..SIZE.y - 1 {
+        for x in 1..SIZE.x - 1 {
+            // Faces the eye, and so do its neighbours.
+            let faces = (0..9).all(|i| {
+                let seen = figures.get(x + i % 3 - 1, y + i / 3 - 1);
+                seen.is_some_and(|seen| seen.normal.dot(forward) < -0.6)
+            });
+            if faces {
+                inside += 1;
+                // Across a cut samples are shaded apart, but all from the front. One of four that shows the far wall takes a
+                // quarter of the light off, and so an eighth of what its encoding in 8 bits holds.
+                let (plain, smooth) = (plain.rgb(x, y)[1], smooth.rgb(x, y)[1]);
+                assert!(
+                    plain.abs_diff(smooth) <= plain / 16,
+                    "{x},{y}: {smooth} instead of {plain}"
+                );
+            }
+        }
+    }
+    assert!(inside > 1000, "{inside}");
+}
+
+#[test]
 fn textures_leave_no_seam_where_u_starts_anew() {
     // Mip levels from the third on are red: a gradient across the seam, a whole texture wide, would show them.
     let size = 64u32;

@@ -90,6 +90,7 @@ fn difference(name: &str, lens: Lens, frames: usize, stage: impl Fn(&mut Studio)
     );
     println!("{name}: mean FLIP {flip:.5}");
     if let Ok(folder) = std::env::var("VERDURE_PICTURES") {
+        std::fs::create_dir_all(&folder).unwrap();
         for (picture, kind) in pictures.iter().zip(["mesh", "frusta"]) {
             let file = std::path::Path::new(&folder).join(format!("{name}_{kind}.png"));
             picture.save_png(&file).unwrap();

@@ -159,6 +159,17 @@ fn bounds_corner(bounds: Bounds, corner: u32) -> vec3<f32> {
     return bounds.axis * y + across * max(bounds.radius + bounds.slope * y, 0.0);
 }
 
+// Greatest distance from the axis of what the bounds hold.
+fn bounds_width(bounds: Bounds) -> f32 {
+    var widest = 0.0;
+    for (var corner = 0u; corner < 8u; corner++) {
+        // A corner is √2 times as far from the axis as the sides that meet there.
+        let position = bounds_corner(bounds, corner);
+        widest = max(widest, abs(dot(position, bounds.side)));
+    }
+    return widest;
+}
+
 fn widths(frustum: Frustum, low: f32, high: f32) -> vec2<f32> {
     let r_low = max(frustum.radius + frustum.slope * low, 0.0);
     let r_high = max(frustum.radius + frustum.slope * high, 0.0);

@@ -8,7 +8,8 @@
     mesh_functions,
     decal::clustered::apply_decals,
 }
-#import bevy_verdure::frusta::trace::{Corner, Varying, place_corner, see, surface, previous_local_position}
+#import bevy_verdure::frusta::place::{Corner, Varying, place_corner}
+#import bevy_verdure::frusta::trace::{see, surface, previous_local_position}
 #import bevy_verdure::frusta::material
 
 @vertex

@@ -8,7 +8,8 @@
     pbr_types,
     decal::clustered::apply_decals,
 }
-#import bevy_verdure::frusta::trace::{Corner, Varying, place_corner, see, surface}
+#import bevy_verdure::frusta::place::{Corner, Varying, place_corner, segment_of}
+#import bevy_verdure::frusta::trace::{see, surface}
 #import bevy_verdure::frusta::material
 
 @vertex
@@ -69,7 +70,7 @@ fn fragment(
     }
     out.color = main_pass_post_lighting_processing(input, out.color);
 #ifdef FRUSTA_OUTPUT_GEOMETRY
-    out.color = vec4(seen.hit.t, f32(in.segment), s.uv);
+    out.color = vec4(seen.hit.t, f32(segment_of(in)), s.uv);
 #endif
 #ifdef FRUSTA_OUTPUT_NORMALS
     out.color = vec4(s.world_normal, seen.hit.t);

@@ -2,7 +2,8 @@
 
 #import bevy_pbr::{pbr_functions, prepass_bindings::previous_view_uniforms, mesh_functions}
 #import bevy_pbr::mesh_view_bindings::view
-#import bevy_verdure::frusta::trace::{Corner, Varying, place_corner, see, surface, previous_local_position}
+#import bevy_verdure::frusta::place::{Corner, Varying, place_corner}
+#import bevy_verdure::frusta::trace::{see, surface, previous_local_position}
 #import bevy_verdure::frusta::material
 
 @vertex

@@ -1,83 +1,23 @@
 #define_import_path bevy_verdure::frusta::trace
 
-// What all passes share: placing the bounds, and finding what a pixel sees of a segment.
+// The fragment stage of all passes: finding what a pixel sees of a segment, and what there is to shade.
 
 #import bevy_pbr::mesh_bindings::mesh
-#import bevy_pbr::mesh_functions
-#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, load_frustum, reference_across, vec3_from, ROUND, FLAT}
+#import bevy_verdure::frusta::types::{Frustum, joints, plants, shapes, reference_across, vec3_from, ROUND, FLAT}
 #import bevy_verdure::frusta::cast::{Ray, Hit, cast_ray, NO_ROOT, CONE, START, END}
-#import bevy_verdure::frusta::bounds::{bounds, bounds_corner}
+#import bevy_verdure::frusta::place::{Varying, frustum_of, pixel_of, ray_frame_of, segment_of}
 #import bevy_verdure::frusta::surface::{SurfacePoint, surface_point, TAU}
 #import bevy_verdure::frusta::view::{
-    Stand, PixelRay, stand, pixel_ray, pixel_width, near_depth, buffer_depth, local_to_clip, is_orthographic,
+    PixelRay, RayFrame, stand, pixel_ray, near_depth, buffer_depth, local_to_world,
 }
 
-// Shares of a pixel by which the bounds are widened and the cutting planes overlap. Vertices are snapped to
-// 1/256 of a pixel, each end of an edge by half of that, so neighbours' bounds overlap in any case.
-const MARGIN: f32 = 0.02;
+// Share of a pixel by which cutting planes overlap.
 const SLACK: f32 = 0.01;
-
-struct Corner {
-    @builtin(instance_index) instance_index: u32,
-    // Index of the segment times 8, plus the corner.
-    @location(0) corner: u32,
-}
-
-struct Varying {
-    @builtin(position) position: vec4<f32>,
-    @location(0) @interpolate(flat) instance_index: u32,
-    @location(1) @interpolate(flat) segment: u32,
-#ifdef VISIBILITY_RANGE_DITHER
-    @location(2) @interpolate(flat) visibility_range_dither: i32,
-#endif
-}
-
-fn place_corner(in: Corner) -> Varying {
-    var out: Varying;
-    out.instance_index = in.instance_index;
-    out.segment = in.corner >> 3u;
-    // Spare and empty segments collapse to a point outside the view.
-    out.position = vec4(0.0, 0.0, -2.0, 1.0);
-    let plant = plants[mesh[in.instance_index].tag];
-    if out.segment >= plant.joint_count {
-        return out;
-    }
-    let frustum = load_frustum(plant, out.segment);
-    let place = stand(in.instance_index);
-    let margin = MARGIN * local_pixel_width(place, frustum);
-    let b = bounds(frustum, margin);
-    if !b.drawn {
-        return out;
-    }
-    // In a mirrored plant the other side of the bounds faces out.
-    let corner = select(in.corner ^ 1u, in.corner, place.handedness > 0.0) & 7u;
-    var clip = local_to_clip(place, frustum.base + bounds_corner(b, corner));
-    // Only what is seen through the bounds may be clipped, not the bounds: their depth is never used.
-    clip.z = max(clip.z, 0.0);
-    if is_orthographic() {
-        clip.z = min(clip.z, 1.0);
-    }
-    out.position = clip;
-#ifdef VISIBILITY_RANGE_DITHER
-    out.visibility_range_dither = mesh_functions::get_visibility_range_dither_level(
-        in.instance_index, mesh_functions::get_world_from_local(in.instance_index)[3]);
-#endif
-    return out;
-}
-
-// The width of a pixel at the middle of a segment, in local metres.
-fn local_pixel_width(place: Stand, frustum: Frustum) -> f32 {
-    let middle = frustum.base + frustum.axis * (0.5 * frustum.length);
-    let from_eye = place.world_from_local * middle + place.from_eye;
-    let reach = 0.5 * frustum.length + max(frustum.end.radius, frustum.start.radius);
-    let local_metre = pow(abs(determinant(place.local_from_world)), 1.0 / 3.0);
-    return pixel_width(length(from_eye) + reach / local_metre) * local_metre;
-}
 
 // What a pixel sees of a segment.
 struct Seen {
     frustum: Frustum,
-    place: Stand,
+    frame: RayFrame,
     hit: Hit,
     // The ray at the pixel's centre, and how it changes from pixel to pixel.
     ray: PixelRay,
@@ -88,20 +28,22 @@ struct Seen {
 
 fn see(in: Varying, sample_mask: u32) -> Seen {
     var seen: Seen;
-    let plant = plants[mesh[in.instance_index].tag];
-    seen.frustum = load_frustum(plant, in.segment);
-    seen.place = stand(in.instance_index);
-    let slack = SLACK * local_pixel_width(seen.place, seen.frustum);
-    seen.ray = pixel_ray(seen.place, seen.frustum.base, in.position.xy);
+    seen.frustum = frustum_of(in);
+    seen.frame = ray_frame_of(in);
+    let slack = SLACK * pixel_of(in);
+    seen.ray = pixel_ray(seen.frame, in.position.xy);
     seen.hit = cast_ray(Ray(seen.ray.origin, seen.ray.direction), seen.frustum, least_depth(), slack);
     seen.coverage = select(0u, sample_mask, seen.hit.t < NO_ROOT);
 #ifdef FRUSTA_MULTISAMPLED
     // Coverage is the geometry's own: along outlines each sample casts its own ray, and the pixel is shaded once.
     var faces = seen.hit.t < NO_ROOT && is_facing(seen.frustum, seen.hit, seen.ray.direction);
-    if !faces || !is_inside(seen, slack / SLACK) {
+    if seen.hit.t >= NO_ROOT && is_outside(seen, in) {
+        return seen;
+    }
+    if !faces || !is_inside(seen, pixel_of(in)) {
         var coverage = 0u;
         for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
-            let ray = pixel_ray(seen.place, seen.frustum.base, in.position.xy + sample_offset(i));
+            let ray = pixel_ray(seen.frame, in.position.xy + sample_offset(i));
             let hit = cast_ray(Ray(ray.origin, ray.direction), seen.frustum, least_depth(), slack);
             if (sample_mask & (1u << i)) == 0u || hit.t >= NO_ROOT {
                 continue;
@@ -152,6 +94,13 @@ fn is_facing(frustum: Frustum, hit: Hit, direction: vec3<f32>) -> bool {
         normal = -frustum.axis;
     }
     return dot(normal, direction) <= 0.0;
+}
+
+// True if the ray that missed passes the axis so far off that no other of its pixel can hit.
+fn is_outside(seen: Seen, in: Varying) -> bool {
+    let across = cross(seen.frustum.axis, seen.ray.direction);
+    let reach = in.widest + 2.0 * pixel_of(in);
+    return abs(dot(across, seen.ray.origin)) > reach * length(across);
 }
 
 // True if a hit is so far inside the part it lies on that all rays of its pixel hit it: two pixels, seen at its slant,
@@ -216,19 +165,18 @@ struct Surface {
 
 fn surface(seen: Seen, in: Varying) -> Surface {
     let plant = plants[mesh[in.instance_index].tag];
-    let joint = joints[plant.first_joint + in.segment];
-    let shape = shapes[plant.first_shape + in.segment];
+    let segment = segment_of(in);
+    let joint = joints[plant.first_joint + segment];
+    let shape = shapes[plant.first_shape + segment];
+    let place = stand(in.instance_index);
     let frustum = seen.frustum;
     let reference = reference_across(joint.reference, frustum.axis);
     let s = surface_point(frustum, reference, shape.twist, seen.hit.point, seen.hit.part);
     var out: Surface;
-    out.world_position = vec4(
-        bevy_verdure::frusta::view::local_to_world(seen.place, frustum.base + seen.hit.point),
-        1.0,
-    );
-    out.world_normal = normalize(transpose(seen.place.local_from_world) * s.normal);
+    out.world_position = vec4(local_to_world(place, frustum.base + seen.hit.point), 1.0);
+    out.world_normal = normalize(transpose(place.local_from_world) * s.normal);
     let around = cross(frustum.axis, s.across);
-    out.world_tangent = vec4(normalize(seen.place.world_from_local * around), seen.place.handedness);
+    out.world_tangent = vec4(normalize(place.world_from_local * around), place.handedness);
     let v_length = shape.v_end - shape.v_start;
     out.uv = vec2(s.u, shape.v_start + v_length * s.v);
     // Gradients of the ray: where the rays of the neighbouring pixels meet the tangent plane.
@@ -241,7 +189,7 @@ fn surface(seen: Seen, in: Varying) -> Surface {
     let dv = generator * (v_length / s.span);
     for (var i = 0u; i < 2u; i++) {
         let step = select(vec2(0.0, 1.0), vec2(1.0, 0.0), i == 0u);
-        let next = pixel_ray(seen.place, frustum.base, in.position.xy + step);
+        let next = pixel_ray(seen.frame, in.position.xy + step);
         let moved = (next.origin - seen.ray.origin) + (next.direction - d) * seen.hit.t;
         let on_plane = moved - d * (dot(s.true_normal, moved) / n_d);
         // Half a texture a pixel selects the smallest mip level; more, as at the pole of a cap, only costs.
@@ -258,8 +206,9 @@ fn surface(seen: Seen, in: Varying) -> Surface {
 // Where the seen point was in the frame before, in the plant's local space of that frame.
 fn previous_local_position(seen: Seen, in: Varying) -> vec3<f32> {
     let plant = plants[mesh[in.instance_index].tag];
-    let joint = joints[plant.first_joint + in.segment];
-    let parent = joints[plant.first_joint + shapes[plant.first_shape + in.segment].parent];
+    let segment = segment_of(in);
+    let joint = joints[plant.first_joint + segment];
+    let parent = joints[plant.first_joint + shapes[plant.first_shape + segment].parent];
     let frustum = seen.frustum;
     let position = vec3_from(joint.position);
     let previous_position = vec3_from(joint.previous_position);

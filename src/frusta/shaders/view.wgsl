@@ -45,29 +45,35 @@ fn pixel_width(depth: f32) -> f32 {
     return select(width * max(depth, 0.0), width, is_orthographic());
 }
 
-// A ray in local space, its origin relative to `base`, its direction one metre of depth long.
+// The eye as a segment sees it: view directions in local space, and the eye's place, relative to the segment's base.
+struct RayFrame {
+    local_from_view: mat3x3<f32>,
+    origin: vec3<f32>,
+}
+
+fn ray_frame(stand: Stand, base: vec3<f32>) -> RayFrame {
+    let v = view.world_from_view;
+    let turn = mat3x3(v[0].xyz, v[1].xyz, v[2].xyz);
+    return RayFrame(stand.local_from_world * turn, stand.local_from_world * -stand.from_eye - base);
+}
+
+// A ray in local space, its origin relative to a segment's base, its direction one metre of depth long.
 struct PixelRay {
     origin: vec3<f32>,
     direction: vec3<f32>,
 }
 
 // The ray through a point of the framebuffer. Its parameter t is depth: metres along the view axis.
-fn pixel_ray(stand: Stand, base: vec3<f32>, frag_coord: vec2<f32>) -> PixelRay {
+fn pixel_ray(frame: RayFrame, frag_coord: vec2<f32>) -> PixelRay {
     let uv = (frag_coord - view.viewport.xy) / view.viewport.zw;
     let ndc = uv * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
     let p = view.clip_from_view;
-    var origin = vec3(0.0);
-    var direction = vec3((ndc + p[2].xy) / vec2(p[0].x, p[1].y), -1.0);
     if is_orthographic() {
-        origin = vec3((ndc - p[3].xy) / vec2(p[0].x, p[1].y), 0.0);
-        direction = vec3(0.0, 0.0, -1.0);
+        let offset = vec3((ndc - p[3].xy) / vec2(p[0].x, p[1].y), 0.0);
+        return PixelRay(frame.origin + frame.local_from_view * offset, -frame.local_from_view[2]);
     }
-    let v = view.world_from_view;
-    let turn = mat3x3(v[0].xyz, v[1].xyz, v[2].xyz);
-    return PixelRay(
-        stand.local_from_world * (turn * origin - stand.from_eye) - base,
-        stand.local_from_world * (turn * direction),
-    );
+    let direction = vec3((ndc + p[2].xy) / vec2(p[0].x, p[1].y), -1.0);
+    return PixelRay(frame.origin, frame.local_from_view * direction);
 }
 
 // Depth at which the near plane lies.

@@ -1,0 +1,132 @@
+#define_import_path bevy_verdure::frusta::place
+
+// The vertex stage of all passes: places a segment's bounds, and works out what all its fragments share, so that
+// they need not.
+
+#import bevy_pbr::mesh_bindings::mesh
+#import bevy_pbr::mesh_functions
+#import bevy_verdure::frusta::types::{Frustum, End, plants, load_frustum}
+#import bevy_verdure::frusta::bounds::{bounds, bounds_corner, bounds_width}
+#import bevy_verdure::frusta::view::{
+    Stand, RayFrame, stand, ray_frame, pixel_width, local_to_clip, is_orthographic,
+}
+
+// Share of a pixel by which the bounds are widened. Vertices are snapped to 1/256 of a pixel, each end of an edge by
+// half of that, so neighbours' bounds overlap in any case.
+const MARGIN: f32 = 0.02;
+
+struct Corner {
+    @builtin(instance_index) instance_index: u32,
+    // Index of the segment times 8, plus the corner.
+    @location(0) corner: u32,
+}
+
+struct Varying {
+    @builtin(position) position: vec4<f32>,
+    @location(0) @interpolate(flat) instance_index: u32,
+    // Index of the segment times 16, plus what closes its start and its end, two bits each.
+    @location(1) @interpolate(flat) segment_and_ends: u32,
+#ifdef VISIBILITY_RANGE_DITHER
+    @location(2) @interpolate(flat) visibility_range_dither: i32,
+#endif
+    // The frustum.
+    @location(3) @interpolate(flat) axis_length: vec4<f32>,
+    @location(4) @interpolate(flat) base_radius: vec4<f32>,
+    @location(5) @interpolate(flat) start_plane: vec4<f32>,
+    @location(6) @interpolate(flat) end_plane: vec4<f32>,
+    // Slope, both ends' radii, and the width of a pixel at the segment in local metres.
+    @location(7) @interpolate(flat) slope_radii_pixel: vec4<f32>,
+    // From view to local directions, and where the eye is, in local space relative to the base.
+    @location(8) @interpolate(flat) local_from_view_x: vec4<f32>,
+    @location(9) @interpolate(flat) local_from_view_y: vec4<f32>,
+    @location(10) @interpolate(flat) local_from_view_z: vec4<f32>,
+#ifdef FRUSTA_MULTISAMPLED
+    // Greatest distance from the axis that the segment reaches, in local metres.
+    @location(11) @interpolate(flat) widest: f32,
+#endif
+}
+
+fn place_corner(in: Corner) -> Varying {
+    var out: Varying;
+    out.instance_index = in.instance_index;
+    let segment = in.corner >> 3u;
+    // Spare and empty segments collapse to a point outside the view.
+    out.position = vec4(0.0, 0.0, -2.0, 1.0);
+    let plant = plants[mesh[in.instance_index].tag];
+    if segment >= plant.joint_count {
+        return out;
+    }
+    let frustum = load_frustum(plant, segment);
+    let place = stand(in.instance_index);
+    let pixel = local_pixel_width(place, frustum);
+    let b = bounds(frustum, MARGIN * pixel);
+    if !b.drawn {
+        return out;
+    }
+    // In a mirrored plant the other side of the bounds faces out.
+    let corner = select(in.corner ^ 1u, in.corner, place.handedness > 0.0) & 7u;
+    var clip = local_to_clip(place, frustum.base + bounds_corner(b, corner));
+    // Only what is seen through the bounds may be clipped, not the bounds: their depth is never used.
+    clip.z = max(clip.z, 0.0);
+    if is_orthographic() {
+        clip.z = min(clip.z, 1.0);
+    }
+    out.position = clip;
+#ifdef VISIBILITY_RANGE_DITHER
+    out.visibility_range_dither = mesh_functions::get_visibility_range_dither_level(
+        in.instance_index, mesh_functions::get_world_from_local(in.instance_index)[3]);
+#endif
+    let frame = ray_frame(place, frustum.base);
+    out.segment_and_ends = segment << 4u | frustum.end.kind << 2u | frustum.start.kind;
+    out.axis_length = vec4(frustum.axis, frustum.length);
+    out.base_radius = vec4(frustum.base, frustum.radius);
+    out.start_plane = vec4(frustum.start.normal, frustum.start.offset);
+    out.end_plane = vec4(frustum.end.normal, frustum.end.offset);
+    out.slope_radii_pixel = vec4(frustum.slope, frustum.start.radius, frustum.end.radius, pixel);
+    out.local_from_view_x = vec4(frame.local_from_view[0], frame.origin.x);
+    out.local_from_view_y = vec4(frame.local_from_view[1], frame.origin.y);
+    out.local_from_view_z = vec4(frame.local_from_view[2], frame.origin.z);
+#ifdef FRUSTA_MULTISAMPLED
+    out.widest = bounds_width(b);
+#endif
+    return out;
+}
+
+// The width of a pixel at the middle of a segment, in local metres.
+fn local_pixel_width(place: Stand, frustum: Frustum) -> f32 {
+    let middle = frustum.base + frustum.axis * (0.5 * frustum.length);
+    let from_eye = place.world_from_local * middle + place.from_eye;
+    let reach = 0.5 * frustum.length + max(frustum.end.radius, frustum.start.radius);
+    let local_metre = pow(abs(determinant(place.local_from_world)), 1.0 / 3.0);
+    return pixel_width(length(from_eye) + reach / local_metre) * local_metre;
+}
+
+// What the fragments read back.
+
+fn segment_of(in: Varying) -> u32 {
+    return in.segment_and_ends >> 4u;
+}
+
+fn frustum_of(in: Varying) -> Frustum {
+    let kinds = vec2(in.segment_and_ends, in.segment_and_ends >> 2u) & vec2(3u);
+    return Frustum(
+        in.base_radius.xyz,
+        in.axis_length.xyz,
+        in.axis_length.w,
+        in.base_radius.w,
+        in.slope_radii_pixel.x,
+        End(in.start_plane.xyz, in.start_plane.w, in.slope_radii_pixel.y, kinds.x),
+        End(in.end_plane.xyz, in.end_plane.w, in.slope_radii_pixel.z, kinds.y),
+    );
+}
+
+fn pixel_of(in: Varying) -> f32 {
+    return in.slope_radii_pixel.w;
+}
+
+fn ray_frame_of(in: Varying) -> RayFrame {
+    return RayFrame(
+        mat3x3(in.local_from_view_x.xyz, in.local_from_view_y.xyz, in.local_from_view_z.xyz),
+        vec3(in.local_from_view_x.w, in.local_from_view_y.w, in.local_from_view_z.w),
+    );
+}
