@@ -14,6 +14,7 @@ use bevy_verdure::frusta::single::join::{JoinKind, Link, PosedJoint, Skin, skin}
 use bevy_verdure::frusta::single::links::{joints_at_rest, links};
 use bevy_verdure::frusta::single::surface::align;
 use bevy_verdure::lab::Headless;
+use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
@@ -31,7 +32,7 @@ const FRAME: Duration = Duration::from_millis(16);
 
 /// A tree of `count` joints that forks at every eighth.
 fn tree(count: usize) -> (Vec<Link>, Vec<PosedJoint>) {
-    let mut dice = cactus::Dice(1);
+    let mut dice = Dice::new(1);
     let mut joints: Vec<Joint> = vec![Joint::root(Vec3::ZERO, 0.3)];
     for i in 1..count {
         let parent = if i % 8 == 0 { i / 2 } else { i - 1 };
@@ -83,7 +84,7 @@ fn plant(world: &mut World) {
     let skin = world
         .resource_mut::<Assets<FrustaMaterial>>()
         .add(frusta_material(Color::WHITE));
-    let mut dice = cactus::Dice(8);
+    let mut dice = Dice::new(8);
     for i in 0..100 {
         let cactus = cactus::body(21 + usize::from(i < 58), &mut dice);
         let skeleton = world

@@ -6,6 +6,7 @@
 //! |---|---|---|
 //! | [`skeleton`] | joints, segments, poses; files; what a plant is before it has a surface | |
 //! | [`frusta`] | solid parts: a cone round each segment, ray cast per pixel | `skeleton` |
+//! | [`plants`] | skeletons grown from a seed: palms, pines, cacti, and scenes of them | `skeleton` |
 //! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
 //!
 //! Arrows run one way: methods know `skeleton` at most and never each other, and nothing knows `lab`. Each folder's
@@ -17,6 +18,7 @@
 pub mod frusta;
 #[cfg(feature = "lab")]
 pub mod lab;
+pub mod plants;
 pub mod skeleton;
 
 use bevy::app::PluginGroupBuilder;
@@ -27,7 +29,7 @@ use bevy::prelude::*;
 pub mod prelude {
     pub use crate::frusta::{
         Ends, Frusta, FrustaExtension, FrustaMaterial, FrustaOutput, FrustaStats, Join,
-        ShadingNormals, frusta_material,
+        MeshSettings, ShadingNormals, frusta_material,
     };
     pub use crate::skeleton::{
         Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,

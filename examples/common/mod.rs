@@ -1,13 +1,17 @@
 //! What keeps windows, cameras and pictures out of the examples: an app that runs in a window, or headless.
 
+pub mod stage;
+
 use std::time::{Duration, Instant};
 
-use bevy::camera::Hdr;
+use bevy::camera::{Hdr, RenderTarget};
 use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraPlugin};
 use bevy::image::{ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
-use bevy_verdure::lab::{CommonArgs, FrameStats, Headless, adapter_name, median, wait_for_gpu};
+use bevy_verdure::lab::{
+    CommonArgs, FrameStats, Headless, Pixels, adapter_name, median, wait_for_gpu,
+};
 use bevy_verdure::prelude::*;
 
 /// Frames that are drawn before any is kept: assets load, textures reach the GPU.
@@ -50,20 +54,26 @@ pub fn run(title: &str, args: &CommonArgs, configure: impl FnOnce(&mut App)) -> 
     Ok(())
 }
 
-fn run_headless(
-    title: &str,
-    args: &CommonArgs,
-    configure: impl FnOnce(&mut App),
-) -> Result<(), String> {
-    let out = &args.out;
-    std::fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
+/// What `main` returns.
+pub fn exit(run: Result<(), String>) -> std::process::ExitCode {
+    match run {
+        Ok(()) => std::process::ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("error: {message}");
+            std::process::ExitCode::FAILURE
+        }
+    }
+}
+
+/// An app without a window, with all it loads in place, and what its camera renders to.
+fn open(size: UVec2, configure: impl FnOnce(&mut App)) -> Result<(Headless, RenderTarget), String> {
     let mut headless = Headless::new(STEP, |app| {
         app.add_plugins((VerdurePlugin, FreeCameraPlugin))
             .add_systems(Update, orbit);
         configure(app);
     });
     headless.step();
-    let target = headless.target(args.size, TextureFormat::Rgba8UnormSrgb);
+    let target = headless.target(size, TextureFormat::Rgba8UnormSrgb);
     let world = headless.world();
     let mut cameras = world.query_filtered::<Entity, With<MainCamera>>();
     let camera = cameras.single(world).map_err(|error| error.to_string())?;
@@ -71,6 +81,23 @@ fn run_headless(
     for _ in 0..WARM_UP {
         headless.step();
     }
+    Ok((headless, target))
+}
+
+/// One picture of an app.
+pub fn picture(size: UVec2, configure: impl FnOnce(&mut App)) -> Result<Pixels, String> {
+    let (mut headless, target) = open(size, configure)?;
+    Ok(headless.capture(&target))
+}
+
+fn run_headless(
+    title: &str,
+    args: &CommonArgs,
+    configure: impl FnOnce(&mut App),
+) -> Result<(), String> {
+    let out = &args.out;
+    std::fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
+    let (mut headless, target) = open(args.size, configure)?;
     if let Some(file) = &args.stats {
         let stats = measure(&mut headless, args);
         stats.save(file)?;

@@ -3,6 +3,7 @@
 use core::f32::consts::TAU;
 
 use bevy::prelude::*;
+use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 
 use super::common::texture;
@@ -11,23 +12,6 @@ use super::common::texture;
 const RIBS: f32 = 11.0;
 /// Petals of a flower; each is a segment.
 pub const PETALS: usize = 5;
-
-/// A random number in 0..1 (SplitMix64), the same on every machine.
-pub struct Dice(pub u64);
-
-impl Dice {
-    pub fn roll(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    pub fn between(&mut self, low: f32, high: f32) -> f32 {
-        low + (high - low) * self.roll()
-    }
-}
 
 /// The body of a cactus, and what the dance needs to know of it.
 pub struct Cactus {

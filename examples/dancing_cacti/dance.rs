@@ -3,9 +3,8 @@
 use core::f32::consts::TAU;
 
 use bevy::prelude::*;
+use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
-
-use super::cactus::Dice;
 
 /// Beats a minute.
 const TEMPO: f32 = 116.0;

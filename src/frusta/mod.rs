@@ -20,6 +20,9 @@
 //! What the plain files in `math/` compute, the shaders compute term for term. They are compiled for `f32` as
 //! [`single`] and for `f64` as [`double`].
 //!
+//! The same surface in triangles, for collision, export and comparison, is [`Skeleton::to_mesh`](crate::skeleton::Skeleton::to_mesh)
+//! (`polygons/`).
+//!
 //! # Where this departs from the paper
 //! * Cones carry a signed slope instead of a height, so cylinders are no special case (Equations 1, 2).
 //! * A joint's radius is that of a sphere which all its cones touch, so that neighbours meet exactly; the paper's
@@ -45,12 +48,14 @@ mod links;
 mod material;
 mod mesh;
 mod plant;
+pub mod polygons;
 mod records;
 mod share;
 pub mod single;
 mod stats;
 mod systems;
 mod table;
+mod to_mesh;
 
 use bevy::asset::AssetEventSystems;
 use bevy::camera::visibility::NoAutoAabb;
@@ -66,6 +71,7 @@ pub use component::{Ends, Frusta, Join};
 pub use material::{
     FrustaExtension, FrustaKey, FrustaMaterial, FrustaOutput, ShadingNormals, frusta_material,
 };
+pub use polygons::{MeshError, MeshParts, MeshRelief, MeshSettings};
 pub use stats::FrustaStats;
 
 use crate::VerdureSystems;

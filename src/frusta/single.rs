@@ -24,5 +24,7 @@ pub mod links;
 pub mod mitre;
 #[path = "math/paper.rs"]
 pub mod paper;
+#[path = "math/shell.rs"]
+pub mod shell;
 #[path = "math/surface.rs"]
 pub mod surface;

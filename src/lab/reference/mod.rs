@@ -17,6 +17,7 @@
 //! | `segment` | what is a segment once its joins are decided? |
 //! | `scene` | what does a ray meet first? `bvh` finds the segments near it |
 //! | `swept_sphere` | the same `Round` shape a second time, as a distance, with no cone in it |
+//! | [`relief`] | the same with a relief map on it, marched in thousands of steps |
 //! | `seam` | how far apart are two cut curves that should be one? |
 //!
 //! Source: D. Bhagvat, S. Jeschke, D. Cline, P. Wonka, "GPU Rendering of Relief Mapped Conical
@@ -29,6 +30,7 @@ mod limbs;
 mod paper;
 #[cfg(test)]
 mod random;
+pub mod relief;
 mod scene;
 mod seam;
 mod segment;

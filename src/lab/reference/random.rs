@@ -2,16 +2,18 @@
 
 use glam::DVec3;
 
-/// SplitMix64 (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", 2014).
-pub(super) struct SplitMix64(pub u64);
+use crate::plants::Dice;
+
+/// Random numbers in double precision.
+pub(super) struct SplitMix64(Dice);
 
 impl SplitMix64 {
+    pub fn new(seed: u64) -> Self {
+        Self(Dice::new(seed))
+    }
+
     pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.bits()
     }
 
     /// In [0, 1).

@@ -48,7 +48,7 @@ fn leaking(
     guards: ReferenceGuards,
     count: usize,
 ) -> usize {
-    let mut rng = SplitMix64(seed);
+    let mut rng = SplitMix64::new(seed);
     let leaks_somewhere = |_: &usize| {
         let joints = growth.grow(&mut rng);
         let scene = ReferenceScene::guarded(&joints, settings, guards);
@@ -59,7 +59,7 @@ fn leaking(
 
 #[test]
 fn rays_at_the_axis_hit_before_they_reach_it() {
-    let mut rng = SplitMix64(40);
+    let mut rng = SplitMix64::new(40);
     for join in [ReferenceJoin::Mitre, ReferenceJoin::Round] {
         for ends in [ReferenceEnds::Round, ReferenceEnds::Flat] {
             for _ in 0..1000 {
@@ -126,7 +126,7 @@ fn a_refused_mitre_must_not_cut_the_one_that_stands() {
     let settings = ReferenceSettings::default();
     let literal = ReferenceScene::guarded(&joints, settings, LITERAL);
     assert!(overlaps(&literal));
-    let mut rng = SplitMix64(45);
+    let mut rng = SplitMix64::new(45);
     let holes = leaks(&mut rng, &joints, &literal, 100_000);
     assert!(holes > 0);
     let guarded = ReferenceScene::guarded(&joints, settings, GUARDED);
@@ -136,7 +136,7 @@ fn a_refused_mitre_must_not_cut_the_one_that_stands() {
 
 #[test]
 fn guarded_cuts_leave_a_whole_ring_of_every_cone() {
-    let mut rng = SplitMix64(46);
+    let mut rng = SplitMix64::new(46);
     let growth = Growth { joints: 4, ..CHAIN };
     let (mut literal, mut guarded) = (0, 0);
     for _ in 0..200_000 {

@@ -19,7 +19,7 @@ fn random_cone(rng: &mut SplitMix64) -> Cone {
 
 #[test]
 fn a_tangent_cone_touches_both_spheres_on_circles() {
-    let mut rng = SplitMix64(1);
+    let mut rng = SplitMix64::new(1);
     for _ in 0..1000 {
         let cone = random_cone(&mut rng);
         let (s, c) = (cone.sine(), cone.cosine());
@@ -44,7 +44,7 @@ fn a_tangent_cone_touches_both_spheres_on_circles() {
 
 #[test]
 fn both_ends_of_a_span_are_on_the_proper_nappe() {
-    let mut rng = SplitMix64(2);
+    let mut rng = SplitMix64::new(2);
     let (mut found, mut half_lines) = (0, 0);
     for _ in 0..20_000 {
         let cone = random_cone(&mut rng);
@@ -87,7 +87,7 @@ fn both_ends_of_a_span_are_on_the_proper_nappe() {
 
 #[test]
 fn rays_that_miss_the_span_are_outside_all_along() {
-    let mut rng = SplitMix64(3);
+    let mut rng = SplitMix64::new(3);
     for _ in 0..2000 {
         let cone = random_cone(&mut rng);
         let origin = cone.base + rng.direction() * rng.log_range(0.1, 20.0);
@@ -103,7 +103,7 @@ fn rays_that_miss_the_span_are_outside_all_along() {
 
 #[test]
 fn the_cut_range_holds_the_cut_curve_and_touches_it() {
-    let mut rng = SplitMix64(4);
+    let mut rng = SplitMix64::new(4);
     let mut ellipses = 0;
     for _ in 0..2000 {
         let cone = random_cone(&mut rng);

@@ -49,7 +49,7 @@ fn residuals(segment: &Segment, part: ReferencePart, p: DVec3) -> (f64, f64) {
 
 #[test]
 fn every_hit_is_on_its_surface_and_between_its_planes() {
-    let mut rng = SplitMix64(10);
+    let mut rng = SplitMix64::new(10);
     for join in VARIANTS {
         for ends in [ReferenceEnds::Round, ReferenceEnds::Flat] {
             let mut hits = 0;
@@ -83,7 +83,7 @@ fn every_hit_is_on_its_surface_and_between_its_planes() {
 
 #[test]
 fn the_tree_of_boxes_loses_no_hit() {
-    let mut rng = SplitMix64(11);
+    let mut rng = SplitMix64::new(11);
     for join in VARIANTS {
         for _ in 0..20 {
             let joints = Growth {
@@ -105,7 +105,7 @@ fn the_tree_of_boxes_loses_no_hit() {
 
 #[test]
 fn a_far_eye_sees_the_same_point() {
-    let mut rng = SplitMix64(12);
+    let mut rng = SplitMix64::new(12);
     let growth = Growth {
         taper: 2.0,
         aspect: (2.0, 20.0),

@@ -12,7 +12,7 @@ fn ends(segment: &Segment) -> Option<(EndKind, EndKind)> {
 
 #[test]
 fn a_chain_joins_alike_from_either_end() {
-    let mut rng = SplitMix64(20);
+    let mut rng = SplitMix64::new(20);
     let growth = Growth {
         joints: 5,
         bend: 175.0,
@@ -53,7 +53,7 @@ fn a_chain_joins_alike_from_either_end() {
 
 #[test]
 fn both_segments_of_a_joint_agree_on_how_they_meet() {
-    let mut rng = SplitMix64(21);
+    let mut rng = SplitMix64::new(21);
     let growth = Growth {
         joints: 8,
         bend: 150.0,

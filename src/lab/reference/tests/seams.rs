@@ -14,7 +14,7 @@ fn gap(degrees: f64, taper: f64, join: ReferenceJoin) -> f64 {
 
 #[test]
 fn mitre_points_of_one_cone_lie_on_the_other() {
-    let mut rng = SplitMix64(50);
+    let mut rng = SplitMix64::new(50);
     let growth = Growth {
         joints: 3,
         bend: 175.0,

@@ -31,7 +31,7 @@ fn normal(joints: &[ReferenceJoint], p: DVec3, step: f64) -> DVec3 {
 
 #[test]
 fn round_joins_are_the_union_of_swept_spheres() {
-    let mut rng = SplitMix64(30);
+    let mut rng = SplitMix64::new(30);
     let (mut both, mut neither, mut grazing) = (0, 0, 0);
     for _ in 0..600 {
         let joints = WILD.grow(&mut rng);
@@ -63,7 +63,7 @@ fn round_joins_are_the_union_of_swept_spheres() {
 
 #[test]
 fn the_distance_is_the_least_over_all_spheres_of_the_sweep() {
-    let mut rng = SplitMix64(31);
+    let mut rng = SplitMix64::new(31);
     for _ in 0..2000 {
         let joints = Growth {
             joints: 2,

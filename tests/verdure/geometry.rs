@@ -12,7 +12,7 @@ use bevy_verdure::lab::reference::{ReferenceJoin, seam_gap, swept_sphere_distanc
 use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use crate::skeletons::{Dice, Growth, ball, double, reference_joints};
+use crate::skeletons::{Dice, Growth, Roll, ball, double, reference_joints};
 
 const HARSH: Growth = Growth {
     joints: 8,
@@ -42,7 +42,7 @@ fn frusta(skeleton: &Skeleton, join: JoinKind) -> Vec<Frustum> {
 
 #[test]
 fn points_of_one_cone_on_a_mitres_plane_lie_on_the_other() {
-    let mut dice = Dice(1);
+    let mut dice = Dice::new(1);
     let (mut cuts, mut worst) = (0, 0.0f64);
     while cuts < 5_000 {
         let first = double(dice.direction()).normalize();
@@ -117,7 +117,7 @@ fn the_papers_joins_leave_gaps_where_exact_mitres_leave_none() {
 
 #[test]
 fn round_joins_are_swept_spheres() {
-    let mut dice = Dice(7);
+    let mut dice = Dice::new(7);
     let (mut hits, mut worst) = (0, 0.0f64);
     for growth in [HARSH, GENTLE].into_iter().cycle().take(60) {
         let skeleton = growth.grow(&mut dice);
@@ -157,7 +157,7 @@ fn round_joins_are_swept_spheres() {
 
 #[test]
 fn bounds_hold_their_frustum_and_touch_it() {
-    let mut dice = Dice(12);
+    let mut dice = Dice::new(12);
     for growth in [HARSH, GENTLE].into_iter().cycle().take(200) {
         let skeleton = growth.grow(&mut dice);
         for join in [JoinKind::Mitre, JoinKind::Round] {
@@ -269,7 +269,7 @@ fn sides_of_plain_bounds_touch_the_cone_and_ends_are_the_cutting_planes() {
 #[test]
 fn the_shaders_compute_what_the_plain_files_compute() {
     let mut studio = Studio::default();
-    let mut dice = Dice(77);
+    let mut dice = Dice::new(77);
     let (mut hits, mut wrong, mut worst_depth, mut worst_uv, mut worst_normal) =
         (0, 0, 0f32, 0f32, 0f32);
     for growth in [GENTLE, HARSH, GENTLE] {

@@ -7,7 +7,7 @@ use bevy_verdure::lab::reference::{
 use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use crate::skeletons::{Dice, Growth, ball, reference_joints};
+use crate::skeletons::{Dice, Growth, Roll, ball, reference_joints};
 
 const SIZE: UVec2 = UVec2::new(256, 192);
 /// Greatest error of depth, as a share of the distance.
@@ -86,7 +86,7 @@ fn agree(
     rounds: usize,
 ) -> Tally {
     let mut studio = Studio::default();
-    let mut dice = Dice(2009);
+    let mut dice = Dice::new(2009);
     let mut tally = Tally::default();
     for round in 0..rounds {
         let skeleton = growths[round % growths.len()].grow(&mut dice);

@@ -15,7 +15,7 @@ use bevy_verdure::lab::reference::{
 use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use crate::skeletons::{Dice, Growth, ball, double, reference_joints};
+use crate::skeletons::{Dice, Growth, Roll, ball, double, reference_joints};
 
 const SIZE: UVec2 = UVec2::new(256, 192);
 
@@ -75,7 +75,7 @@ fn wrong_shadows(
     dark(&mut studio);
     floor(studio.world());
     studio.world().spawn(light);
-    let skeleton = TREE.grow(&mut Dice(11));
+    let skeleton = TREE.grow(&mut Dice::new(11));
     let scene = reference(&skeleton);
     let (_, radius) = ball(&skeleton);
     studio.plant(skeleton, Frusta::default(), Transform::IDENTITY);
@@ -214,7 +214,7 @@ fn casting_and_receiving_can_be_switched_off() {
 
 #[test]
 fn any_invertible_transform_is_drawn_as_the_reference_says() {
-    let skeleton = TREE.grow(&mut Dice(5));
+    let skeleton = TREE.grow(&mut Dice::new(5));
     let scene = reference(&skeleton);
     let (centre, radius) = ball(&skeleton);
     let mut studio = Studio::default();
@@ -276,7 +276,7 @@ fn any_invertible_transform_is_drawn_as_the_reference_says() {
 
 #[test]
 fn multisampled_edges_have_their_coverage() {
-    let skeleton = TREE.grow(&mut Dice(9));
+    let skeleton = TREE.grow(&mut Dice::new(9));
     let scene = reference(&skeleton);
     let (centre, radius) = ball(&skeleton);
     let mut studio = Studio::default();
@@ -516,9 +516,9 @@ fn cameras_see_the_layers_that_they_are_on() {
 #[test]
 fn bounds_follow_the_pose_and_culling_follows_the_bounds() {
     let mut studio = Studio::default();
-    let skeleton = TREE.grow(&mut Dice(21));
+    let skeleton = TREE.grow(&mut Dice::new(21));
     let plant = studio.plant(skeleton.clone(), Frusta::default(), Transform::IDENTITY);
-    let mut dice = Dice(3);
+    let mut dice = Dice::new(3);
     for _ in 0..6 {
         let rotations = (0..skeleton.len())
             .map(|_| Quat::from_axis_angle(dice.direction(), dice.between(-1.0, 1.0)))
@@ -558,7 +558,7 @@ fn bounds_follow_the_pose_and_culling_follows_the_bounds() {
 #[test]
 fn plants_that_share_a_material_are_one_draw() {
     let mut studio = Studio::default();
-    let mut dice = Dice(4);
+    let mut dice = Dice::new(4);
     let material = frusta_material(Color::WHITE);
     let material = studio
         .world()
@@ -600,7 +600,7 @@ fn plants_that_share_a_material_are_one_draw() {
 #[test]
 fn what_moves_is_uploaded_and_what_stands_still_is_not() {
     let mut studio = Studio::default();
-    let skeleton = Growth { joints: 24, ..TREE }.grow(&mut Dice(6));
+    let skeleton = Growth { joints: 24, ..TREE }.grow(&mut Dice::new(6));
     let segments = skeleton.segment_count();
     let still = studio.plant(skeleton.clone(), Frusta::default(), Transform::IDENTITY);
     let bent = studio.plant(skeleton.clone(), Frusta::default(), Transform::IDENTITY);

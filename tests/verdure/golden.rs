@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Shot, Studio, adapter_name, load_png, mean_flip};
+use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 
 #[allow(dead_code)]
@@ -188,7 +189,7 @@ fn a_ribbed_cactus() {
                 ..default()
             });
             let skin = world.resource_mut::<Assets<FrustaMaterial>>().add(skin);
-            let cactus = cactus::body(18, &mut cactus::Dice(3));
+            let cactus = cactus::body(18, &mut Dice::new(3));
             let skeleton = world
                 .resource_mut::<Assets<Skeleton>>()
                 .add(cactus.skeleton);

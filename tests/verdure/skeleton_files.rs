@@ -18,13 +18,13 @@ use proptest::sample::{Index, select};
 const SAMPLES: [(&str, &str); 4] = [
     (
         "fork.skeleton.ron",
-        include_str!("../assets/test/fork.skeleton.ron"),
+        include_str!("../../assets/test/fork.skeleton.ron"),
     ),
-    ("fork.swc", include_str!("../assets/test/fork.swc")),
-    ("treeqsm.csv", include_str!("../assets/test/treeqsm.csv")),
+    ("fork.swc", include_str!("../../assets/test/fork.swc")),
+    ("treeqsm.csv", include_str!("../../assets/test/treeqsm.csv")),
     (
         "simpleforest.csv",
-        include_str!("../assets/test/simpleforest.csv"),
+        include_str!("../../assets/test/simpleforest.csv"),
     ),
 ];
 

@@ -4,30 +4,25 @@ use bevy::math::{DVec3, Quat, Vec3};
 use bevy_verdure::lab::reference::ReferenceJoint;
 use bevy_verdure::prelude::*;
 
-/// SplitMix64 (Steele, Lea and Flood 2014).
-pub struct Dice(pub u64);
+pub use bevy_verdure::plants::Dice;
 
-impl Dice {
-    pub fn roll(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    pub fn between(&mut self, low: f32, high: f32) -> f32 {
-        low + (high - low) * self.roll()
-    }
-
+/// More ways to roll.
+pub trait Roll {
     /// Evenly in the logarithm.
-    pub fn log_between(&mut self, low: f32, high: f32) -> f32 {
+    fn log_between(&mut self, low: f32, high: f32) -> f32;
+
+    /// A direction, evenly on the sphere.
+    fn direction(&mut self) -> Vec3;
+}
+
+impl Roll for Dice {
+    fn log_between(&mut self, low: f32, high: f32) -> f32 {
         self.between(low.ln(), high.ln()).exp()
     }
 
-    pub fn direction(&mut self) -> Vec3 {
+    fn direction(&mut self) -> Vec3 {
         let z = self.between(-1.0, 1.0);
-        let (sin, cos) = self.between(0.0, core::f32::consts::TAU).sin_cos();
+        let (sin, cos) = self.angle().sin_cos();
         let across = (1.0 - z * z).sqrt();
         Vec3::new(across * cos, across * sin, z)
     }

@@ -7,7 +7,7 @@ use bevy_verdure::lab::reference::{
 use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use crate::skeletons::{Dice, Growth, ball, double};
+use crate::skeletons::{Dice, Growth, Roll, ball, double};
 
 const SIZE: UVec2 = UVec2::new(256, 192);
 const VIEWS: usize = 64;
@@ -38,7 +38,7 @@ fn holes(
     seed: u64,
 ) -> usize {
     let mut studio = Studio::default();
-    let mut dice = Dice(seed);
+    let mut dice = Dice::new(seed);
     let skeleton = growth.grow(&mut dice);
     let (centre, radius) = ball(&skeleton);
     let plant = studio.plant(

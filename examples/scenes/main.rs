@@ -1,0 +1,49 @@
+//! The nine scenes of the frusta paper's Table 1, grown from a seed.
+//!
+//! ```text
+//! cargo run --example scenes -- oasis
+//! cargo run --example scenes -- elm --seed 3 --headless --frames 1 --out out
+//! ```
+//!
+//! M switches between frusta and polygons of the same surface; `--polygons` starts with these.
+
+#[path = "../dancing_cacti/cactus.rs"]
+mod cactus;
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../dancing_cacti/crowd.rs"]
+mod crowd;
+#[path = "../dancing_cacti/dance.rs"]
+mod dance;
+mod looks;
+mod planting;
+mod scene;
+
+use bevy_verdure::lab::CommonArgs;
+use clap::Parser;
+
+use scene::Scene;
+
+/// Shows one of the paper's scenes.
+#[derive(Parser)]
+struct Args {
+    /// The scene.
+    #[arg(value_enum)]
+    scene: Scene,
+    /// What the plants grow from.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Draw polygons instead of frusta.
+    #[arg(long)]
+    polygons: bool,
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+fn main() -> std::process::ExitCode {
+    let args = Args::parse();
+    let run = common::run(&args.scene.name(), &args.common, |app| {
+        args.scene.stage(args.seed, args.polygons, app);
+    });
+    common::exit(run)
+}

@@ -1,0 +1,12 @@
+//! The crate as a user and a GPU see it, against references: one binary, for each links all of Bevy.
+
+mod agreement;
+mod features;
+mod geometry;
+mod golden;
+mod live;
+mod polygons;
+mod skeleton_files;
+mod skeletons;
+mod twins;
+mod watertight;
