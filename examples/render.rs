@@ -250,6 +250,7 @@ fn measure_run(studio: &mut Studio, plant: Entity, shot: &Shot, frames: usize) -
             let visibility = [Visibility::Visible, Visibility::Hidden][hidden];
             studio.world().entity_mut(plant).insert(visibility);
             studio.headless.step();
+            bevy_verdure::lab::wait_for_gpu(studio.world());
             let started = std::time::Instant::now();
             studio.headless.step();
             bevy_verdure::lab::wait_for_gpu(studio.world());

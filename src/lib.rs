@@ -89,6 +89,8 @@ impl Plugin for SchedulePlugin {
             )
                 .chain()
                 .after(bevy::app::AnimationSystems)
+                // Segments that were spawned or moved on reload are in place in the same frame.
+                .before(TransformSystems::Propagate)
                 .before(VisibilitySystems::CalculateBounds)
                 .before(VisibilitySystems::CheckVisibility),
         );

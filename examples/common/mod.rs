@@ -1,14 +1,14 @@
 //! What keeps windows, cameras and pictures out of the examples: an app that runs in a window, or headless.
 
 pub mod stage;
+pub mod texture;
 
 use std::time::{Duration, Instant};
 
 use bevy::camera::{Hdr, RenderTarget};
 use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraPlugin};
-use bevy::image::{ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
 use bevy::prelude::*;
-use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
+use bevy::render::render_resource::TextureFormat;
 use bevy_verdure::lab::{
     CommonArgs, FrameStats, Headless, Pixels, adapter_name, median, wait_for_gpu,
 };
@@ -242,66 +242,4 @@ fn write_overlay(
             stats.uploaded_bytes / 1024,
         );
     }
-}
-
-/// A texture that repeats, with all its mip levels, from a function of u and v in 0..1. `srgb` tells colours from
-/// other data; normals are renormalised by the shader.
-pub fn texture(size: u32, srgb: bool, pixel: impl Fn(f32, f32) -> [f32; 4]) -> Image {
-    let mut level: Vec<[f32; 4]> = (0..size * size)
-        .map(|i| {
-            let (x, y) = (i % size, i / size);
-            pixel(
-                (x as f32 + 0.5) / size as f32,
-                (y as f32 + 0.5) / size as f32,
-            )
-        })
-        .collect();
-    let mut data = Vec::new();
-    let mut side = size as usize;
-    loop {
-        let encode = |value: &[f32; 4]| -> [u8; 4] {
-            let [r, g, b, a] = *value;
-            if srgb {
-                Srgba::from(LinearRgba::new(r, g, b, a)).to_u8_array()
-            } else {
-                [r, g, b, a].map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8)
-            }
-        };
-        data.extend(level.iter().flat_map(encode));
-        if side == 1 {
-            break;
-        }
-        let width = side;
-        let at = |x: usize, y: usize| level[y * width + x];
-        side /= 2;
-        let half = (0..side * side).map(|i| {
-            let (x, y) = (i % side * 2, i / side * 2);
-            core::array::from_fn(|c| {
-                0.25 * (at(x, y)[c] + at(x + 1, y)[c] + at(x, y + 1)[c] + at(x + 1, y + 1)[c])
-            })
-        });
-        level = half.collect();
-    }
-    let format = if srgb {
-        TextureFormat::Rgba8UnormSrgb
-    } else {
-        TextureFormat::Rgba8Unorm
-    };
-    let extent = Extent3d {
-        width: size,
-        height: size,
-        depth_or_array_layers: 1,
-    };
-    let mut image = Image::new_uninit(extent, TextureDimension::D2, format, default());
-    image.texture_descriptor.mip_level_count = size.ilog2() + 1;
-    image.data = Some(data);
-    image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
-        address_mode_u: ImageAddressMode::Repeat,
-        address_mode_v: ImageAddressMode::Repeat,
-        mag_filter: ImageFilterMode::Linear,
-        min_filter: ImageFilterMode::Linear,
-        mipmap_filter: ImageFilterMode::Linear,
-        ..default()
-    });
-    image
 }

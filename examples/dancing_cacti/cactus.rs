@@ -6,7 +6,7 @@ use bevy::prelude::*;
 use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 
-use super::common::texture;
+use super::common::texture::painted;
 
 /// Ribs round a cactus.
 const RIBS: f32 = 11.0;
@@ -101,7 +101,7 @@ fn ridge(u: f32) -> f32 {
 
 /// Green skin with pale ridges, dark grooves and tufts of spines.
 pub fn skin_color() -> Image {
-    texture(256, true, |u, v| {
+    painted(256, true, |u, v| {
         let ridge = ridge(u);
         let green = Vec3::new(0.032, 0.085, 0.030).lerp(Vec3::new(0.19, 0.36, 0.125), ridge);
         // Tufts sit on the ridges, four to a repeat, in turn on every second rib.
@@ -116,7 +116,7 @@ pub fn skin_color() -> Image {
 
 /// The ribs as a normal map.
 pub fn skin_normals() -> Image {
-    texture(256, false, |u, _| {
+    painted(256, false, |u, _| {
         let slope = (ridge(u + 0.002) - ridge(u - 0.002)) / 0.004 / RIBS;
         let normal = Vec3::new(-slope * 0.42, 0.0, 1.0).normalize() * 0.5 + 0.5;
         [normal.x, normal.y, normal.z, 1.0]

@@ -49,7 +49,7 @@ fn plant(world: &mut World, planting: &Planting) {
             } else {
                 Ends::Round
             };
-            let look = look(part.kind, world.resource::<AssetServer>());
+            let look = look(part.kind, &mut world.resource_mut::<Assets<Image>>());
             let frusta = world
                 .resource_mut::<Assets<FrustaMaterial>>()
                 .add(frusta_material(look.clone()));
@@ -59,7 +59,7 @@ fn plant(world: &mut World, planting: &Planting) {
                 ends,
                 ..default()
             };
-            let mesh = match part.skeleton.to_mesh(&settings) {
+            let mesh = match polygons(&part.skeleton, &settings) {
                 Ok(mesh) => world.resource_mut::<Assets<Mesh>>().add(mesh),
                 Err(error) => {
                     error!("{:?}: {error}", part.kind);
@@ -91,6 +91,11 @@ fn plant(world: &mut World, planting: &Planting) {
             }
         }
     }
+}
+
+/// A mesh with what a normal map needs.
+fn polygons(skeleton: &Skeleton, settings: &MeshSettings) -> Result<Mesh> {
+    Ok(skeleton.to_mesh(settings)?.with_generated_tangents()?)
 }
 
 /// Which of both an entity is.

@@ -34,7 +34,7 @@ impl LinkedSkeleton {
             let inherited = parent.map_or(TEXTURE_LENGTH, |parent| texture_lengths[parent]);
             let texture_length = joint.texture_length.unwrap_or(inherited);
             texture_lengths.push(texture_length);
-            // v runs on from the parent's segment; a limb's starts at 0.
+            // v runs on from the parent's segment; at a root it starts at 0.
             let along = parent.map_or(Vec3::ZERO, |parent| {
                 joint.position - joints[parent].position
             });

@@ -27,10 +27,10 @@ const TRIANGLES: [u8; 36] = [
     1, 3, 7, 1, 7, 5, // first side, positive
 ];
 
-/// The shared meshes, by the number of segments they have room for.
+/// The shared meshes, by the number of segments they have room for, as long as a plant uses them.
 #[derive(Resource, Default)]
 pub(crate) struct FrustaMeshes {
-    by_size: HashMap<usize, Handle<Mesh>>,
+    by_size: HashMap<usize, AssetId<Mesh>>,
 }
 
 impl FrustaMeshes {
@@ -41,11 +41,13 @@ impl FrustaMeshes {
         meshes: &mut Assets<Mesh>,
     ) -> Handle<Mesh> {
         let size = size_class(count);
-        let mesh = self
-            .by_size
-            .entry(size)
-            .or_insert_with(|| meshes.add(corners(size)));
-        mesh.clone()
+        let known = self.by_size.get(&size);
+        if let Some(mesh) = known.and_then(|id| meshes.get_strong_handle(*id)) {
+            return mesh;
+        }
+        let mesh = meshes.add(corners(size));
+        self.by_size.insert(size, mesh.id());
+        mesh
     }
 }
 

@@ -17,7 +17,9 @@
 //!    (`math/cast.rs`) and shade the hit: one file each for the main pass, the prepasses and shadow maps, and deferred
 //!    rendering, in `shaders/`.
 //!
-//! What the plain files in `math/` compute, the shaders compute term for term. They are compiled for `f32` as
+//! `shaders/place.wgsl` is the vertex stage of all passes and `shaders/trace.wgsl` the fragment stage; `shaders/view.wgsl`
+//! leads from pixels to rays and back. `bounds`, `cast` and `surface` are there term for term what they are in `math/`, whose
+//! files are compiled for `f32` as
 //! [`single`] and for `f64` as [`double`].
 //!
 //! The same surface in triangles, for collision, export and comparison, is [`Skeleton::to_mesh`](crate::skeleton::Skeleton::to_mesh)
@@ -63,7 +65,7 @@ use bevy::mesh::MeshTag;
 use bevy::pbr::MaterialPlugin;
 use bevy::prelude::*;
 use bevy::render::renderer::RenderDevice;
-use bevy::render::{ExtractSchedule, RenderApp};
+use bevy::render::{ExtractSchedule, GpuResourceAppExt, RenderApp};
 use bevy::shader::load_shader_library;
 
 pub use buffers::FrustaBuffers;
@@ -128,7 +130,7 @@ impl Plugin for FrustaPlugin {
             );
         if let Some(render_app) = app.get_sub_app_mut(RenderApp) {
             render_app
-                .init_resource::<buffers::FrustaBuffers>()
+                .init_gpu_resource::<buffers::FrustaBuffers>()
                 .add_systems(
                     ExtractSchedule,
                     buffers::upload.in_set(VerdureSystems::Upload),

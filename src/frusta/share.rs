@@ -82,7 +82,9 @@ impl FrustaData {
     /// Forgets a skeleton that is gone.
     pub(crate) fn unloaded(&mut self, id: AssetId<Skeleton>) {
         // The version goes on counting, should the id come back while plants still have the old shape.
-        if !self.skeletons.keys().any(|key| key.id == id) {
+        if self.skeletons.keys().any(|key| key.id == id) {
+            self.reloaded(id);
+        } else {
             self.versions.remove(&id);
         }
     }

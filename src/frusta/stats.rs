@@ -14,7 +14,7 @@ pub struct FrustaStats {
     pub segments: usize,
     /// Joints of the plants whose pose changed, or came to rest.
     pub moved_joints: usize,
-    /// Bytes written to the GPU.
+    /// Bytes that changed and were written to the GPU; a buffer that had to grow is written whole besides.
     pub uploaded_bytes: usize,
     /// Time spent on cones, cutting planes and records, from the first plant to the last.
     pub cutting_planes: Duration,

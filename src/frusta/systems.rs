@@ -28,9 +28,13 @@ pub(crate) fn follow_skeletons(
     }
 }
 
+/// A plant for which the tables have no room.
+#[derive(Component)]
+pub(crate) struct NoRoom;
+
 /// What tells that a plant needs a (new) place in the tables.
 type Unattached = Or<(
-    Without<FrustaPlant>,
+    (Without<FrustaPlant>, Without<NoRoom>),
     Changed<Skeleton3d>,
     Changed<Frusta>,
     Added<PosedJoints>,
@@ -77,7 +81,9 @@ pub(crate) fn attach(
                 continue;
             }
         }
+        // One that found no room waits until some is given back: `NoRoom` keeps the error from being told every frame.
         let Some(mut plant) = data.attach(id, skeleton, *settings, posed.is_some()) else {
+            commands.entity(entity).try_insert(NoRoom);
             continue;
         };
         // One that was bent before goes on where it was, instead of from rest.
@@ -105,17 +111,22 @@ pub(crate) fn attach(
 pub(crate) fn detach(
     replaced: On<Discard, FrustaPlant>,
     plants: Query<&FrustaPlant>,
+    turned_away: Query<Entity, With<NoRoom>>,
     mut data: ResMut<FrustaData>,
+    mut commands: Commands,
 ) {
     if let Ok(plant) = plants.get(replaced.entity) {
         data.detach(plant);
+        for waiting in &turned_away {
+            commands.entity(waiting).try_remove::<NoRoom>();
+        }
     }
 }
 
 /// Stops drawing an entity that is a plant no more.
 pub(crate) fn uproot(removed: On<Remove, Skeleton3d>, mut commands: Commands) {
     if let Ok(mut entity) = commands.get_entity(removed.entity) {
-        entity.try_remove::<(FrustaPlant, Mesh3d, MeshTag, Aabb)>();
+        entity.try_remove::<(FrustaPlant, NoRoom, Mesh3d, MeshTag, Aabb)>();
     }
 }
 

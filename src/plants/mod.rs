@@ -26,6 +26,8 @@
 //!
 //! Two scenes put several of them in their places: [`Desert`] (799) and [`Oasis`] (18,557), each a [`Planting`].
 //!
+//! What their surfaces look like is painted by code too: [`maps`].
+//!
 //! # Promises
 //! * The same parameters and seed grow the same plant; another seed grows another of the same kind. Random numbers
 //!   are integers' work ([`Dice`]), so plants on two machines differ by the rounding of sines at most.
@@ -51,6 +53,7 @@ mod desert;
 mod dice;
 mod elm;
 mod grass;
+pub mod maps;
 mod oasis;
 mod ocotillo;
 mod pine;

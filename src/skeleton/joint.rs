@@ -16,7 +16,7 @@ pub const MAX_RADIUS: f32 = 1.0e5;
 
 /// A point of a [`Skeleton`](super::Skeleton) with a radius, and the joint that it grows from.
 ///
-/// The line from the parent to the joint is a segment; a joint without parent is a root, starts no
+/// The line from the parent to the joint is a segment; a joint without parent is a root, ends no
 /// segment, and there may be any number of roots. A segment may have no length.
 ///
 /// The fields are free to edit; [`Skeleton::new`](super::Skeleton::new) checks the ranges given here and

@@ -59,6 +59,8 @@ impl Plugin for PlantPlugin {
             .register_type::<super::SkeletonSegment>()
             .register_type::<super::SegmentEntities>()
             .add_observer(unfold::fold)
+            .add_observer(unfold::forget_segment)
+            .add_observer(pose::let_go)
             .add_systems(
                 PostUpdate,
                 (

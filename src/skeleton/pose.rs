@@ -4,12 +4,13 @@ use bevy::asset::prelude::AssetChanged;
 use bevy::math::Affine3A;
 use bevy::prelude::*;
 
-use super::{Joint, Skeleton, Skeleton3d};
+use super::{Joint, Skeleton, Skeleton3d, UnfoldSkeleton};
 
 /// Bends a plant by a rotation a joint: the cheap way, for crowds.
 ///
 /// Write the rotations from any system before [`VerdureSystems::Pose`](crate::VerdureSystems::Pose); nothing is
-/// recomputed while this component is unchanged.
+/// recomputed while this component is unchanged. Without effect on a plant that is unfolded
+/// ([`UnfoldSkeleton`]); removing it lets the plant stand at rest.
 #[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(PosedJoints)]
@@ -74,25 +75,30 @@ pub(crate) fn rest_translation(joints: &[Joint], i: usize) -> Vec3 {
     }
 }
 
-/// What tells that a plant's rotations have to be gone through again.
-type Turned = Or<(
-    Changed<SkeletonPose>,
-    Changed<Skeleton3d>,
-    AssetChanged<Skeleton3d>,
-)>;
-
 /// Poses the plants whose [`SkeletonPose`], or whose skeleton, has changed.
 pub(crate) fn pose_from_rotations(
     skeletons: Res<Assets<Skeleton>>,
-    mut plants: Query<(&Skeleton3d, &SkeletonPose, &mut PosedJoints), Turned>,
+    changed: Query<(), AssetChanged<Skeleton3d>>,
+    mut plants: Query<
+        (Entity, Ref<Skeleton3d>, Ref<SkeletonPose>, &mut PosedJoints),
+        Without<UnfoldSkeleton>,
+    >,
 ) {
     plants
         .par_iter_mut()
-        .for_each(|(skeleton, pose, mut posed)| {
-            let Some(skeleton) = skeletons.get(&skeleton.0) else {
+        .for_each(|(entity, skeleton3d, pose, mut posed)| {
+            let Some(skeleton) = skeletons.get(&skeleton3d.0) else {
                 return;
             };
             let joints = skeleton.joints();
+            // An asset's change is told a frame late: a plant whose skeleton has only now come is known by its joints.
+            let turned = pose.is_changed()
+                || skeleton3d.is_changed()
+                || posed.positions.len() != joints.len()
+                || changed.contains(entity);
+            if !turned {
+                return;
+            }
             posed.set(joints, |i| {
                 let rotation = pose.rotations.get(i).copied().unwrap_or_default();
                 let rotation = if rotation.is_finite() {
@@ -103,6 +109,19 @@ pub(crate) fn pose_from_rotations(
                 Affine3A::from_rotation_translation(rotation, rest_translation(joints, i))
             });
         });
+}
+
+/// Lets a plant stand at rest when its [`SkeletonPose`] is removed.
+pub(crate) fn let_go(
+    removed: On<Remove, SkeletonPose>,
+    mut commands: Commands,
+    unfolded: Query<(), With<UnfoldSkeleton>>,
+) {
+    if !unfolded.contains(removed.entity)
+        && let Ok(mut plant) = commands.get_entity(removed.entity)
+    {
+        plant.try_remove::<PosedJoints>();
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use bevy::math::Affine3A;
 use bevy::prelude::*;
 
 use super::pose::rest_translation;
-use super::{PosedJoints, Skeleton, Skeleton3d};
+use super::{Joint, PosedJoints, Skeleton, Skeleton3d, SkeletonPose};
 
 /// Unfolds a plant into one child entity a segment ([`SkeletonSegment`]), once its skeleton is loaded.
 ///
@@ -18,6 +18,11 @@ use super::{PosedJoints, Skeleton, Skeleton3d};
 /// them; only if joints have come, gone or found other parents is the plant unfolded anew, and then what hangs on its
 /// segments is despawned with them. Removing this component folds the plant up again: its segments are despawned and
 /// it stands at rest.
+///
+/// Skeletons with more than 2,048 segments in a row are not unfolded; an error in the log says so.
+///
+/// An animation clip finds a segment by its [`Name`] once the segment has an `AnimationTargetId::from_name` of it and an
+/// `AnimatedBy` of the player's entity.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(PosedJoints)]
@@ -29,15 +34,19 @@ pub struct UnfoldSkeleton;
 #[require(Transform, Visibility)]
 pub struct SkeletonSegment {
     /// The plant's entity.
+    #[entities]
     pub plant: Entity,
     /// Index of the joint that ends this segment.
     pub joint: u32,
 }
 
-/// The segments of an unfolded plant, by joint; roots, which end no segment, have none.
+/// The segments of an unfolded plant, by joint; roots, which end no segment, have none. A clone of a plant unfolds
+/// segments of its own.
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[component(clone_behavior = Ignore)]
 pub struct SegmentEntities {
+    #[entities]
     entities: Vec<Option<Entity>>,
     /// The parents of the joints, by which a reload is told from another hierarchy.
     parents: Vec<Option<u32>>,
@@ -54,6 +63,18 @@ impl SegmentEntities {
         let with_index = self.entities.iter().enumerate();
         with_index.filter_map(|(joint, entity)| Some((joint, (*entity)?)))
     }
+}
+
+/// Longest row of segments, each the child of the one before, that is unfolded.
+const MAX_LEVELS: usize = 2048;
+
+/// Segments in the longest row.
+fn levels(joints: &[Joint]) -> usize {
+    let mut levels: Vec<usize> = Vec::with_capacity(joints.len());
+    for joint in joints {
+        levels.push(joint.parent.map_or(0, |parent| levels[parent as usize] + 1));
+    }
+    levels.into_iter().max().unwrap_or(0)
 }
 
 /// What tells that a plant is to be unfolded, perhaps anew.
@@ -73,6 +94,7 @@ pub(crate) fn unfold(
     mut plants: Query<(&Skeleton3d, Option<&mut SegmentEntities>), With<UnfoldSkeleton>>,
     changed: Query<Entity, Folded>,
     mut segments: Query<&mut Transform, With<SkeletonSegment>>,
+    owners: Query<&SkeletonSegment>,
 ) {
     for plant in &changed {
         let Ok((skeleton3d, unfolded)) = plants.get_mut(plant) else {
@@ -82,6 +104,14 @@ pub(crate) fn unfold(
             continue;
         };
         let joints = skeleton.joints();
+        let levels = levels(joints);
+        if levels > MAX_LEVELS {
+            error_once!(
+                "a skeleton of {levels} segments in a row cannot be unfolded: Bevy follows a hierarchy by recursion, and \
+                 {MAX_LEVELS} is the limit. Bend it with `SkeletonPose`"
+            );
+            continue;
+        }
         let parents: Vec<_> = joints.iter().map(|joint| joint.parent).collect();
         if let Some(mut unfolded) = unfolded {
             if unfolded.parents == parents {
@@ -96,7 +126,7 @@ pub(crate) fn unfold(
                 }
                 continue;
             }
-            despawn_segments(&mut commands, &unfolded);
+            despawn_segments(&mut commands, plant, &unfolded, &owners);
         }
         let mut entities: Vec<Option<Entity>> = Vec::with_capacity(joints.len());
         for (i, joint) in joints.iter().enumerate() {
@@ -128,21 +158,52 @@ pub(crate) fn fold(
     removed: On<Remove, UnfoldSkeleton>,
     mut commands: Commands,
     plants: Query<&SegmentEntities>,
+    segments: Query<&SkeletonSegment>,
+    posed: Query<(), With<SkeletonPose>>,
 ) {
     if let Ok(unfolded) = plants.get(removed.entity) {
-        despawn_segments(&mut commands, unfolded);
-        if let Ok(mut plant) = commands.get_entity(removed.entity) {
-            plant.try_remove::<(SegmentEntities, PosedJoints)>();
-        }
+        despawn_segments(&mut commands, removed.entity, unfolded, &segments);
+    }
+    if let Ok(mut plant) = commands.get_entity(removed.entity) {
+        plant.try_remove::<SegmentEntities>();
+        // A pose by rotations takes over, if there is one.
+        match posed.contains(removed.entity) {
+            true => plant.try_insert(PosedJoints::default()),
+            false => plant.try_remove::<PosedJoints>(),
+        };
     }
 }
 
-fn despawn_segments(commands: &mut Commands, unfolded: &SegmentEntities) {
-    for (_, entity) in unfolded.iter() {
+fn despawn_segments(
+    commands: &mut Commands,
+    plant: Entity,
+    unfolded: &SegmentEntities,
+    segments: &Query<&SkeletonSegment>,
+) {
+    let own = |entity| {
+        segments
+            .get(entity)
+            .is_ok_and(|segment| segment.plant == plant)
+    };
+    for (_, entity) in unfolded.iter().filter(|(_, entity)| own(*entity)) {
         // Despawning one despawns those that hang on it; later ones may be gone.
         if let Ok(mut segment) = commands.get_entity(entity) {
             segment.try_despawn();
         }
+    }
+}
+
+/// Lets the rest of a plant know that one of its segments is gone: it stands there as it does at rest.
+pub(crate) fn forget_segment(
+    removed: On<Remove, SkeletonSegment>,
+    segments: Query<&SkeletonSegment>,
+    mut plants: Query<&mut SegmentEntities>,
+) {
+    if let Ok(segment) = segments.get(removed.entity)
+        && let Ok(mut unfolded) = plants.get_mut(segment.plant)
+        && unfolded.get(segment.joint as usize) == Some(removed.entity)
+    {
+        unfolded.entities[segment.joint as usize] = None;
     }
 }
 

@@ -11,6 +11,7 @@
 #import bevy_verdure::frusta::place::{Corner, Varying, place_corner, segment_of}
 #import bevy_verdure::frusta::trace::{see, surface}
 #import bevy_verdure::frusta::material
+#import bevy_verdure::frusta::view::is_orthographic
 
 @vertex
 fn vertex(corner: Corner) -> Varying {
@@ -78,7 +79,7 @@ fn fragment(
     out.depth = seen.depth;
 #ifdef DEPTH_PREPASS
     // The prepass computed this depth in another shader, whose roundings may differ: stay in front of it.
-    out.depth *= 1.0 + 1e-6;
+    out.depth = out.depth * (1.0 + 1e-6) + 2e-7 * f32(is_orthographic());
 #endif
 #ifdef FRUSTA_MULTISAMPLED
     out.coverage = seen.coverage;

@@ -41,8 +41,8 @@ struct Varying {
     @location(9) @interpolate(flat) local_from_view_y: vec4<f32>,
     @location(10) @interpolate(flat) local_from_view_z: vec4<f32>,
 #ifdef FRUSTA_MULTISAMPLED
-    // Greatest distance from the axis that the segment reaches, in local metres.
-    @location(11) @interpolate(flat) widest: f32,
+    // Greatest distance from the axis that the segment reaches, and the greatest width of a pixel, in local metres.
+    @location(11) @interpolate(flat) reach: vec2<f32>,
 #endif
 }
 
@@ -59,7 +59,7 @@ fn place_corner(in: Corner) -> Varying {
     let frustum = load_frustum(plant, segment);
     let place = stand(in.instance_index);
     let pixel = local_pixel_width(place, frustum);
-    let b = bounds(frustum, MARGIN * pixel);
+    let b = bounds(frustum, MARGIN * pixel.y);
     if !b.drawn {
         return out;
     }
@@ -82,23 +82,26 @@ fn place_corner(in: Corner) -> Varying {
     out.base_radius = vec4(frustum.base, frustum.radius);
     out.start_plane = vec4(frustum.start.normal, frustum.start.offset);
     out.end_plane = vec4(frustum.end.normal, frustum.end.offset);
-    out.slope_radii_pixel = vec4(frustum.slope, frustum.start.radius, frustum.end.radius, pixel);
+    out.slope_radii_pixel = vec4(frustum.slope, frustum.start.radius, frustum.end.radius, pixel.x);
     out.local_from_view_x = vec4(frame.local_from_view[0], frame.origin.x);
     out.local_from_view_y = vec4(frame.local_from_view[1], frame.origin.y);
     out.local_from_view_z = vec4(frame.local_from_view[2], frame.origin.z);
 #ifdef FRUSTA_MULTISAMPLED
-    out.widest = bounds_width(b);
+    out.reach = vec2(bounds_width(b), pixel.y);
 #endif
     return out;
 }
 
-// The width of a pixel at the middle of a segment, in local metres.
-fn local_pixel_width(place: Stand, frustum: Frustum) -> f32 {
+// The width of a pixel at a segment, in local metres: the mean over all directions, and the greatest, which differ where
+// the plant is not scaled alike.
+fn local_pixel_width(place: Stand, frustum: Frustum) -> vec2<f32> {
     let middle = frustum.base + frustum.axis * (0.5 * frustum.length);
     let from_eye = place.world_from_local * middle + place.from_eye;
     let reach = 0.5 * frustum.length + max(frustum.end.radius, frustum.start.radius);
     let local_metre = pow(abs(determinant(place.local_from_world)), 1.0 / 3.0);
-    return pixel_width(length(from_eye) + reach / local_metre) * local_metre;
+    let m = place.local_from_world;
+    let longest = max(max(length(m[0]), length(m[1])), length(m[2]));
+    return pixel_width(length(from_eye) + reach / local_metre) * vec2(local_metre, longest);
 }
 
 // What the fragments read back.

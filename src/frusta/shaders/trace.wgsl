@@ -19,7 +19,7 @@ struct Seen {
     frustum: Frustum,
     frame: RayFrame,
     hit: Hit,
-    // The ray at the pixel's centre, and how it changes from pixel to pixel.
+    // The ray that hit: the pixel's, or that of one of its samples.
     ray: PixelRay,
     // Samples of the pixel that see the segment; 0 for a miss.
     coverage: u32,
@@ -32,7 +32,7 @@ fn see(in: Varying, sample_mask: u32) -> Seen {
     seen.frame = ray_frame_of(in);
     let slack = SLACK * pixel_of(in);
     seen.ray = pixel_ray(seen.frame, in.position.xy);
-    seen.hit = cast_ray(Ray(seen.ray.origin, seen.ray.direction), seen.frustum, least_depth(), slack);
+    seen.hit = cast_ray(Ray(seen.ray.origin, seen.ray.direction), seen.frustum, least_depth(seen.ray), slack);
     seen.coverage = select(0u, sample_mask, seen.hit.t < NO_ROOT);
 #ifdef FRUSTA_MULTISAMPLED
     // Coverage is the geometry's own: along outlines each sample casts its own ray, and the pixel is shaded once.
@@ -40,11 +40,11 @@ fn see(in: Varying, sample_mask: u32) -> Seen {
     if seen.hit.t >= NO_ROOT && is_outside(seen, in) {
         return seen;
     }
-    if !faces || !is_inside(seen, pixel_of(in)) {
+    if !faces || !is_inside(seen, in.reach.y) {
         var coverage = 0u;
         for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
             let ray = pixel_ray(seen.frame, in.position.xy + sample_offset(i));
-            let hit = cast_ray(Ray(ray.origin, ray.direction), seen.frustum, least_depth(), slack);
+            let hit = cast_ray(Ray(ray.origin, ray.direction), seen.frustum, least_depth(ray), slack);
             if (sample_mask & (1u << i)) == 0u || hit.t >= NO_ROOT {
                 continue;
             }
@@ -64,19 +64,24 @@ fn see(in: Varying, sample_mask: u32) -> Seen {
         seen.coverage = coverage;
     }
 #endif
-    seen.depth = buffer_depth(seen.hit.t);
+    seen.depth = buffer_depth(seen.hit.t, seen.ray.view_xy);
 #ifdef FRUSTA_UNCLIPPED_DEPTH
     seen.depth = min(seen.depth, 1.0);
+#else
+    // Beyond the far plane, which only an orthographic view has.
+    if seen.depth < 0.0 {
+        seen.coverage = 0u;
+    }
 #endif
     return seen;
 }
 
 // Rays count from the near plane, but in shadow maps of directional lights from before it.
-fn least_depth() -> f32 {
+fn least_depth(ray: PixelRay) -> f32 {
 #ifdef FRUSTA_UNCLIPPED_DEPTH
     return -NO_ROOT;
 #else
-    return near_depth();
+    return near_depth(ray.view_xy);
 #endif
 }
 
@@ -99,7 +104,7 @@ fn is_facing(frustum: Frustum, hit: Hit, direction: vec3<f32>) -> bool {
 // True if the ray that missed passes the axis so far off that no other of its pixel can hit.
 fn is_outside(seen: Seen, in: Varying) -> bool {
     let across = cross(seen.frustum.axis, seen.ray.direction);
-    let reach = in.widest + 2.0 * pixel_of(in);
+    let reach = in.reach.x + 2.0 * in.reach.y;
     return abs(dot(across, seen.ray.origin)) > reach * length(across);
 }
 
@@ -155,7 +160,7 @@ fn sample_offset(i: u32) -> vec2<f32> {
 struct Surface {
     world_position: vec4<f32>,
     world_normal: vec3<f32>,
-    // Towards growing u; w as in mikktspace.
+    // Towards growing u; w as Bevy has it, whose bitangents point to falling v.
     world_tangent: vec4<f32>,
     uv: vec2<f32>,
     // Change of uv to the next pixel on the right, and below.
@@ -176,7 +181,7 @@ fn surface(seen: Seen, in: Varying) -> Surface {
     out.world_position = vec4(local_to_world(place, frustum.base + seen.hit.point), 1.0);
     out.world_normal = normalize(transpose(place.local_from_world) * s.normal);
     let around = cross(frustum.axis, s.across);
-    out.world_tangent = vec4(normalize(place.world_from_local * around), place.handedness);
+    out.world_tangent = vec4(normalize(place.world_from_local * around), -place.handedness);
     let v_length = shape.v_end - shape.v_start;
     out.uv = vec2(s.u, shape.v_start + v_length * s.v);
     // Gradients of the ray: where the rays of the neighbouring pixels meet the tangent plane.
@@ -187,10 +192,11 @@ fn surface(seen: Seen, in: Varying) -> Surface {
     let generator = normalize(frustum.axis + s.across * frustum.slope);
     let du = around / (TAU * max(s.distance, 1e-6)) + generator * (shape.twist / (TAU * s.span));
     let dv = generator * (v_length / s.span);
+    let here = pixel_ray(seen.frame, in.position.xy);
     for (var i = 0u; i < 2u; i++) {
         let step = select(vec2(0.0, 1.0), vec2(1.0, 0.0), i == 0u);
         let next = pixel_ray(seen.frame, in.position.xy + step);
-        let moved = (next.origin - seen.ray.origin) + (next.direction - d) * seen.hit.t;
+        let moved = (next.origin - here.origin) + (next.direction - here.direction) * seen.hit.t;
         let on_plane = moved - d * (dot(s.true_normal, moved) / n_d);
         // Half a texture a pixel selects the smallest mip level; more, as at the pole of a cap, only costs.
         let gradient = clamp(vec2(dot(du, on_plane), dot(dv, on_plane)), vec2(-0.5), vec2(0.5));

@@ -70,6 +70,13 @@ fn vec3_from(v: array<f32, 3>) -> vec3<f32> {
     return vec3(v[0], v[1], v[2]);
 }
 
+// Radius of the sphere at a segment's start. A branch starts with its own.
+fn start_radius(plant: Plant, segment: u32) -> f32 {
+    let shape = shapes[plant.first_shape + segment];
+    let parent = shapes[plant.first_shape + shape.parent];
+    return select(min(parent.radius, shape.radius), parent.radius, parent.next == segment);
+}
+
 fn load_frustum(plant: Plant, segment: u32) -> Frustum {
     let joint = joints[plant.first_joint + segment];
     let shape = shapes[plant.first_shape + segment];
@@ -93,7 +100,7 @@ fn load_frustum(plant: Plant, segment: u32) -> Frustum {
     frustum.start = End(
         vec3_from(joint.plane_normal),
         joint.plane_offset,
-        shapes[plant.first_shape + shape.parent].radius,
+        start_radius(plant, segment),
         joint.bits & 3u,
     );
     frustum.end = End(frustum.axis, 0.0, shape.radius, (joint.bits >> 2u) & 3u);

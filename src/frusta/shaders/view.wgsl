@@ -41,7 +41,7 @@ fn is_orthographic() -> bool {
 
 // The width of a pixel, in metres, at a distance in front of the eye.
 fn pixel_width(depth: f32) -> f32 {
-    let width = 2.0 / (abs(view.clip_from_view[1].y) * view.viewport.w);
+    let width = 2.0 / (abs(view.clip_from_view[1].y) * view.main_pass_viewport.w);
     return select(width * max(depth, 0.0), width, is_orthographic());
 }
 
@@ -61,35 +61,48 @@ fn ray_frame(stand: Stand, base: vec3<f32>) -> RayFrame {
 struct PixelRay {
     origin: vec3<f32>,
     direction: vec3<f32>,
+    // The direction in view space; its z is −1.
+    view_xy: vec2<f32>,
 }
 
 // The ray through a point of the framebuffer. Its parameter t is depth: metres along the view axis.
 fn pixel_ray(frame: RayFrame, frag_coord: vec2<f32>) -> PixelRay {
-    let uv = (frag_coord - view.viewport.xy) / view.viewport.zw;
+    let uv = (frag_coord - view.main_pass_viewport.xy) / view.main_pass_viewport.zw;
     let ndc = uv * vec2(2.0, -2.0) + vec2(-1.0, 1.0);
     let p = view.clip_from_view;
     if is_orthographic() {
+        // A jitter shears the view: it sits beside depth.
         let offset = vec3((ndc - p[3].xy) / vec2(p[0].x, p[1].y), 0.0);
-        return PixelRay(frame.origin + frame.local_from_view * offset, -frame.local_from_view[2]);
+        let direction = vec3(p[2].xy / vec2(p[0].x, p[1].y), -1.0);
+        return PixelRay(
+            frame.origin + frame.local_from_view * offset, frame.local_from_view * direction, direction.xy);
     }
     let direction = vec3((ndc + p[2].xy) / vec2(p[0].x, p[1].y), -1.0);
-    return PixelRay(frame.origin, frame.local_from_view * direction);
+    return PixelRay(frame.origin, frame.local_from_view * direction, direction.xy);
 }
 
-// Depth at which the near plane lies.
-fn near_depth() -> f32 {
+// What clip space's z gains for each metre of depth along a ray; an oblique near plane, as mirrors have, leans it.
+fn depth_slope(view_xy: vec2<f32>) -> f32 {
+    let p = view.clip_from_view;
+    return p[0].z * view_xy.x + p[1].z * view_xy.y - p[2].z;
+}
+
+// Depth at which a ray meets the near plane.
+fn near_depth(view_xy: vec2<f32>) -> f32 {
     let p = view.clip_from_view;
     if is_orthographic() {
         return (p[3].z - 1.0) / p[2].z;
     }
-    return p[3].z / (1.0 + p[2].z);
+    return p[3].z / (1.0 - depth_slope(view_xy));
 }
 
-// What the depth buffer holds at a depth in metres.
-fn buffer_depth(depth: f32) -> f32 {
+// What the depth buffer holds at a depth in metres along a ray.
+fn buffer_depth(depth: f32, view_xy: vec2<f32>) -> f32 {
     let p = view.clip_from_view;
-    let z = p[3].z - p[2].z * depth;
-    return z / select(depth, 1.0, is_orthographic());
+    if is_orthographic() {
+        return p[3].z - p[2].z * depth;
+    }
+    return (p[3].z + depth_slope(view_xy) * depth) / depth;
 }
 
 // A local position in clip space.
