@@ -22,7 +22,6 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 #[allow(dead_code)]
 mod cactus;
 #[path = "../examples/common/mod.rs"]
-#[allow(dead_code)]
 mod common;
 #[path = "../examples/dancing_cacti/dance.rs"]
 mod dance;

@@ -1,5 +1,7 @@
 //! What keeps windows, cameras and pictures out of the examples: an app that runs in a window, or headless.
 
+#![allow(dead_code, reason = "each example uses its part of it")]
+
 pub mod stage;
 pub mod texture;
 

@@ -75,14 +75,19 @@ pub(crate) fn rest_translation(joints: &[Joint], i: usize) -> Vec3 {
     }
 }
 
+/// What is looked at to bend a plant by rotations.
+type Bendable<'w> = (
+    Entity,
+    Ref<'w, Skeleton3d>,
+    Ref<'w, SkeletonPose>,
+    &'w mut PosedJoints,
+);
+
 /// Poses the plants whose [`SkeletonPose`], or whose skeleton, has changed.
 pub(crate) fn pose_from_rotations(
     skeletons: Res<Assets<Skeleton>>,
     changed: Query<(), AssetChanged<Skeleton3d>>,
-    mut plants: Query<
-        (Entity, Ref<Skeleton3d>, Ref<SkeletonPose>, &mut PosedJoints),
-        Without<UnfoldSkeleton>,
-    >,
+    mut plants: Query<Bendable, Without<UnfoldSkeleton>>,
 ) {
     plants
         .par_iter_mut()

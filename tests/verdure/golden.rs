@@ -14,7 +14,6 @@ use bevy_verdure::prelude::*;
 #[allow(dead_code)]
 #[path = "../../examples/dancing_cacti/cactus.rs"]
 mod cactus;
-#[allow(dead_code)]
 #[path = "../../examples/common/mod.rs"]
 mod common;
 

@@ -6,9 +6,9 @@ mod vertices;
 use std::f64::consts::TAU;
 
 use bevy::math::{DQuat, DVec3, Vec3};
-use bevy_verdure::frusta::double::cone::Frustum;
+use bevy_verdure::frusta::double::cone::{EndKind, Frustum};
 use bevy_verdure::frusta::double::join::Skin;
-use bevy_verdure::frusta::double::join::{Link, NONE, PosedJoint};
+use bevy_verdure::frusta::double::join::{JoinKind, Link, NONE, PosedJoint};
 use bevy_verdure::frusta::double::shell::{Shell, Thickness, align_shells, skin_shell};
 use bevy_verdure::frusta::polygons::{MeshParts, MeshRelief, MeshSettings, polygons};
 use bevy_verdure::frusta::{Ends, Join};
@@ -126,7 +126,16 @@ fn both<'a>(
     };
     let scene = ReliefScene::with_options(joints, skin, relief, shell_thickness, &options);
     let mut frusta = vec![Frustum::default(); links.len()];
-    let skin = Skin { join, ends };
+    let skin = Skin {
+        join: match join {
+            Join::Round => JoinKind::Round,
+            _ => JoinKind::Mitre,
+        },
+        ends: match ends {
+            Ends::Flat => EndKind::Flat,
+            Ends::Round => EndKind::Round,
+        },
+    };
     let mut shells = skin_shell(&links, &posed, skin, thickness, &mut frusta);
     align_shells(&links, &mut shells, continuous_u, |_| DVec3::Z);
     Both {
