@@ -38,6 +38,7 @@ const PAPER: u32 = 1 << 5;
 impl JointRecord {
     /// The record of a joint at `position` that ends the segment of `frustum`. `previous` is its record of the frame
     /// before, or `None` for one that stood still.
+    #[inline]
     pub(crate) fn new(
         position: Vec3,
         frustum: &Frustum,

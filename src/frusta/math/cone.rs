@@ -27,6 +27,7 @@ impl Cone {
     /// (ρ − s·y)/c.
     ///
     /// The caller makes sure that neither sphere contains the other ([`touches_both`]).
+    #[inline]
     pub fn touching(axis: Vec3, length: Real, radius_from: Real, radius_to: Real) -> Self {
         Self::opening(axis, radius_from, (radius_from - radius_to) / length)
     }
@@ -141,6 +142,7 @@ pub struct Frustum {
 
 impl Frustum {
     /// The cone that this frustum is cut from, relative to [`base`](Self::base).
+    #[inline]
     pub fn cone(&self) -> Cone {
         Cone {
             axis: self.axis,
@@ -151,11 +153,13 @@ impl Frustum {
     }
 
     /// False for a segment that is only a sphere, or nothing.
+    #[inline]
     pub fn has_cone(&self) -> bool {
         self.radius > 0.0
     }
 
     /// The joint at the end of the segment.
+    #[inline]
     pub fn tip(&self) -> Vec3 {
         self.base + self.axis * self.length
     }
