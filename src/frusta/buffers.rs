@@ -11,8 +11,8 @@ use bytemuck::Pod;
 use super::share::FrustaData;
 use super::table::Table;
 
-/// The buffers that the shaders of a [`FrustaMaterial`](super::FrustaMaterial) read, in the order of their bindings. Lives in the
-/// render world; `None` until the first frame.
+/// The buffers that the shaders of a [`FrustaMaterial`](super::FrustaMaterial) read, in the order of their bindings.
+/// Lives in the render world; `None` until the first frame.
 #[derive(Resource, Default)]
 pub struct FrustaBuffers {
     pub(super) joints: Option<Buffer>,

@@ -8,8 +8,9 @@
 //! A frame goes like this:
 //!
 //! 1. Each plant's pose gives its joints' places ([`skeleton`](crate::skeleton)).
-//! 2. For plants that moved, cones and cutting planes are recomputed (`math/cone.rs`, `math/join.rs`, `math/mitre.rs`), textures are lined up
-//!    from segment to segment (`math/surface.rs`), and all of it is packed into 60 bytes a joint (`records.rs`).
+//! 2. For plants that moved, cones and cutting planes are recomputed (`math/cone.rs`, `math/join.rs`, `math/mitre.rs`),
+//!    textures are lined up from segment to segment (`math/surface.rs`), and all of it is packed into 60 bytes a joint
+//!    (`records.rs`).
 //! 3. Their bounds are recomputed for culling (`extent.rs`), and what changed is written to the GPU (`table.rs`,
 //!    `buffers.rs`). Plants that stand as their skeleton does share one copy: nothing is recomputed or written for them.
 //! 4. Bevy draws plants as instances of a mesh without positions (`mesh.rs`), with a material that extends the standard
@@ -17,13 +18,12 @@
 //!    (`math/cast.rs`) and shade the hit: one file each for the main pass, the prepasses and shadow maps, and deferred
 //!    rendering, in `shaders/`.
 //!
-//! `shaders/place.wgsl` is the vertex stage of all passes and `shaders/trace.wgsl` the fragment stage; `shaders/view.wgsl`
-//! leads from pixels to rays and back. `bounds`, `cast` and `surface` are there term for term what they are in `math/`, whose
-//! files are compiled for `f32` as
-//! [`single`] and for `f64` as [`double`].
+//! `shaders/place.wgsl` is the vertex stage of all passes and `shaders/trace.wgsl` the fragment stage;
+//! `shaders/view.wgsl` leads from pixels to rays and back. `bounds`, `cast` and `surface` are there term for term what
+//! they are in `math/`, whose files are compiled for `f32` as [`single`] and for `f64` as [`double`].
 //!
-//! The same surface in triangles, for collision, export and comparison, is [`Skeleton::to_mesh`](crate::skeleton::Skeleton::to_mesh)
-//! (`polygons/`).
+//! The same surface in triangles, for collision, export and comparison, is
+//! [`Skeleton::to_mesh`](crate::skeleton::Skeleton::to_mesh) (`polygons/`).
 //!
 //! # Where this departs from the paper
 //! * Cones carry a signed slope instead of a height, so cylinders are no special case (Equations 1, 2).

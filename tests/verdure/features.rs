@@ -376,8 +376,8 @@ fn no_far_wall_shows_through_the_cuts_of_multisampled_frusta() {
             });
             if faces {
                 inside += 1;
-                // Across a cut samples are shaded apart, but all from the front. One of four that shows the far wall takes a
-                // quarter of the light off, and so an eighth of what its encoding in 8 bits holds.
+                // Across a cut samples are shaded apart, but all from the front. One of four that shows the far wall
+                // takes a quarter of the light off, and so an eighth of what its encoding in 8 bits holds.
                 let (plain, smooth) = (plain.rgb(x, y)[1], smooth.rgb(x, y)[1]);
                 assert!(
                     plain.abs_diff(smooth) <= plain / 16,

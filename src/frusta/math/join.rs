@@ -1,8 +1,9 @@
 //! Joins: how the frusta of a limb meet (§2.2, made exact).
 //!
 //! A joint's radius is that of a sphere which the cones of all its segments touch, so that neighbours meet in a plane
-//! ([`mitre`](super::mitre)). The first cone keeps the side ≤ of it, the second ≥. Where such a mitre would reach past its segment, or the plane no longer cuts an ellipse, the join is round:
-//! both cones end on the circles where they touch the sphere, and the sphere fills the gap.
+//! ([`mitre`](super::mitre)). The first cone keeps the side ≤ of it, the second ≥. Where such a mitre would reach past
+//! its segment, or the plane no longer cuts an ellipse, the join is round: both cones end on the circles where they
+//! touch the sphere, and the sphere fills the gap.
 
 use super::cone::{Cone, End, EndKind, Frustum, WHOLE, touches_both};
 use super::mitre::{CuttingPlane, mitre};
@@ -68,8 +69,8 @@ const SPACING: Real = 1e-4;
 const SPIKE: Real = 4.0;
 
 /// Recomputes the frusta of a posed skeleton: cones, cutting planes and ends, but not their references
-/// ([`align`](super::surface::align) does). The slices have one entry a joint; the entry of a root joint, which ends no segment,
-/// draws nothing. Allocates nothing.
+/// ([`align`](super::surface::align) does). The slices have one entry a joint; the entry of a root joint, which ends
+/// no segment, draws nothing. Allocates nothing.
 ///
 /// # Panics
 /// If the slices differ in length or a link names a joint outside them.

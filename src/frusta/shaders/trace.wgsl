@@ -48,8 +48,8 @@ fn see(in: Varying, sample_mask: u32) -> Seen {
             if (sample_mask & (1u << i)) == 0u || hit.t >= NO_ROOT {
                 continue;
             }
-            // Through the cut a ray may see the far wall from within, where its neighbour's near side hides it. It must not
-            // lend its depth and its dark side to samples of the near side.
+            // Through the cut a ray may see the far wall from within, where its neighbour's near side hides it. It must
+            // not lend its depth and its dark side to samples of the near side.
             let sample_faces = is_facing(seen.frustum, hit, ray.direction);
             if seen.hit.t >= NO_ROOT || sample_faces && !faces {
                 seen.hit = hit;
