@@ -4,6 +4,7 @@ mod agreement;
 mod features;
 mod geometry;
 mod golden;
+mod lifecycle;
 mod live;
 mod polygons;
 mod skeleton_files;
