@@ -8,18 +8,25 @@ use super::single::mitre::{CuttingPlane, Extent, cut_extent};
 
 /// The axis-aligned box, in local space, round all that some frusta draw. Each segment lies in the hull of a ball
 /// round each of its ends: the joint's sphere, or as far as the cut's ellipse reaches.
-pub(crate) fn aabb(frusta: &[Frustum]) -> Aabb {
+pub(crate) fn aabb(frusta: impl Iterator<Item = Frustum>) -> Aabb {
     let mut low = Vec3::INFINITY;
     let mut high = Vec3::NEG_INFINITY;
     let mut include = |centre: Vec3, radius: f32| {
         low = low.min(centre - radius);
         high = high.max(centre + radius);
     };
-    for frustum in frusta {
+    let mut first = Vec3::ZERO;
+    for (i, frustum) in frusta.enumerate() {
+        if i == 0 {
+            first = frustum.base;
+        }
         if frustum.has_cone() {
             let at_end = frustum.radius + frustum.slope * frustum.length;
-            include(frustum.base, reach(frustum, &frustum.start, frustum.radius));
-            include(frustum.tip(), reach(frustum, &frustum.end, at_end));
+            include(
+                frustum.base,
+                reach(&frustum, &frustum.start, frustum.radius),
+            );
+            include(frustum.tip(), reach(&frustum, &frustum.end, at_end));
         } else if frustum.end.kind == EndKind::Round {
             include(frustum.tip(), frustum.end.radius);
         } else if frustum.start.kind == EndKind::Round {
@@ -28,8 +35,7 @@ pub(crate) fn aabb(frusta: &[Frustum]) -> Aabb {
     }
     if low.x > high.x {
         // Nothing to draw: a point, where the first joint is.
-        let point = frusta.first().map_or(Vec3::ZERO, |frustum| frustum.base);
-        return Aabb::from_min_max(point, point);
+        return Aabb::from_min_max(first, first);
     }
     Aabb::from_min_max(low, high)
 }

@@ -19,6 +19,7 @@ use bevy::shader::{ShaderDefVal, ShaderRef};
 
 use super::buffers::FrustaBuffers;
 use super::mesh::ATTRIBUTE_CORNER;
+use super::relief::{Relief, ReliefBindings, ReliefMarch, ReliefTextures, ReliefV};
 
 /// The material of plants that are drawn by frusta: all of [`StandardMaterial`] that a surface with one pair of
 /// texture coordinates can have, on a ray-cast surface.
@@ -63,6 +64,8 @@ pub struct FrustaExtension {
     pub normals: ShadingNormals,
     /// What the main pass writes.
     pub output: FrustaOutput,
+    /// Detail that stands out of the surface.
+    pub relief: Option<Relief>,
 }
 
 /// What tells the pipelines of one material from another's.
@@ -71,10 +74,30 @@ pub struct FrustaExtension {
 pub struct FrustaKey {
     geometric_normals: u8,
     output: u8,
+    relief: u8,
+}
+
+/// Bits of a key's relief.
+const RELIEF: u8 = 1;
+const RELIEF_INTERPOLATED_V: u8 = 2;
+const RELIEF_LEAPING: u8 = 4;
+const RELIEF_SELF_SHADOW: u8 = 8;
+
+fn relief_bits(relief: &Relief) -> u8 {
+    let bit = |bit, set| if set { bit } else { 0 };
+    if relief.shell().is_none() {
+        return 0;
+    }
+    RELIEF
+        | bit(RELIEF_INTERPOLATED_V, relief.v == ReliefV::Interpolated)
+        | bit(RELIEF_LEAPING, relief.march == ReliefMarch::Leaping)
+        | bit(RELIEF_SELF_SHADOW, relief.self_shadow)
 }
 
 /// Bindings of the extension; [`StandardMaterial`] uses those below.
 const FIRST_BINDING: u32 = 100;
+/// How many of them are storage buffers.
+const BUFFERS: u32 = 3;
 
 /// Whether a device can run the shaders: they read storage buffers in the vertex stage.
 pub(crate) fn is_supported(device: &RenderDevice) -> bool {
@@ -84,11 +107,11 @@ pub(crate) fn is_supported(device: &RenderDevice) -> bool {
 }
 
 /// Storage buffers that a shader stage needs: the extension's three, and those of Bevy's views and meshes.
-pub(crate) const STORAGE_BUFFERS: u32 = 3 + 4;
+pub(crate) const STORAGE_BUFFERS: u32 = BUFFERS + 4;
 
 impl AsBindGroup for FrustaExtension {
     type Data = FrustaKey;
-    type Param = SRes<FrustaBuffers>;
+    type Param = (SRes<FrustaBuffers>, SRes<ReliefTextures>);
 
     fn label() -> &'static str {
         "frusta_material"
@@ -98,6 +121,7 @@ impl AsBindGroup for FrustaExtension {
         FrustaKey {
             geometric_normals: (self.normals == ShadingNormals::Geometric) as u8,
             output: self.output as u8,
+            relief: self.relief.as_ref().map_or(0, relief_bits),
         }
     }
 
@@ -105,7 +129,7 @@ impl AsBindGroup for FrustaExtension {
         &self,
         _: &BindGroupLayout,
         device: &RenderDevice,
-        buffers: &mut SystemParamItem<'_, '_, Self::Param>,
+        (buffers, textures): &mut SystemParamItem<'_, '_, Self::Param>,
         _: bool,
     ) -> Result<UnpreparedBindGroup, AsBindGroupError> {
         let (true, Some(joints), Some(shapes), Some(plants)) = (
@@ -116,13 +140,19 @@ impl AsBindGroup for FrustaExtension {
         ) else {
             return Err(AsBindGroupError::RetryNextUpdate);
         };
-        let bindings = [joints, shapes, plants]
-            .into_iter()
-            .zip(FIRST_BINDING..)
-            .map(|(buffer, binding)| (binding, OwnedBindingResource::Buffer(buffer.clone())))
-            .collect();
+        // While its map is on the way, a plant is not drawn, as with any other texture.
+        let relief = self
+            .relief
+            .as_ref()
+            .filter(|relief| relief.shell().is_some());
+        let Some(relief) = ReliefBindings::resources(relief, textures, device) else {
+            return Err(AsBindGroupError::RetryNextUpdate);
+        };
+        let buffers =
+            [joints, shapes, plants].map(|buffer| OwnedBindingResource::Buffer(buffer.clone()));
+        let resources = buffers.into_iter().chain(relief);
         Ok(UnpreparedBindGroup {
-            bindings: BindingResources(bindings),
+            bindings: BindingResources((FIRST_BINDING..).zip(resources).collect()),
         })
     }
 
@@ -140,7 +170,9 @@ impl AsBindGroup for FrustaExtension {
             },
             count: None,
         };
-        (FIRST_BINDING..FIRST_BINDING + 3).map(entry).collect()
+        let buffers = (FIRST_BINDING..FIRST_BINDING + BUFFERS).map(entry);
+        let relief = ReliefBindings::entries(FIRST_BINDING + BUFFERS);
+        buffers.chain(relief).collect()
     }
 }
 
@@ -207,6 +239,17 @@ impl MaterialExtension for FrustaExtension {
         }
         if key.bind_group_data.geometric_normals != 0 {
             defs.push("FRUSTA_GEOMETRIC_NORMALS".into());
+        }
+        let relief = key.bind_group_data.relief;
+        for (bit, def) in [
+            (RELIEF, "FRUSTA_RELIEF"),
+            (RELIEF_INTERPOLATED_V, "FRUSTA_INTERPOLATED_V"),
+            (RELIEF_LEAPING, "FRUSTA_LEAPING"),
+            (RELIEF_SELF_SHADOW, "FRUSTA_SELF_SHADOW"),
+        ] {
+            if relief & bit != 0 {
+                defs.push(def.into());
+            }
         }
         match key.bind_group_data.output {
             1 => defs.push("FRUSTA_OUTPUT_GEOMETRY".into()),

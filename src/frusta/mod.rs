@@ -52,6 +52,8 @@ mod mesh;
 mod plant;
 pub mod polygons;
 mod records;
+pub mod relief;
+mod shaping;
 mod share;
 pub mod single;
 mod stats;
@@ -74,6 +76,7 @@ pub use material::{
     FrustaExtension, FrustaKey, FrustaMaterial, FrustaOutput, ShadingNormals, frusta_material,
 };
 pub use polygons::{MeshError, MeshParts, MeshRelief, MeshSettings};
+pub use relief::{Relief, ReliefMarch, ReliefSteps, ReliefThickness, ReliefV, relief_material};
 pub use stats::FrustaStats;
 
 use crate::VerdureSystems;
@@ -92,7 +95,10 @@ impl Plugin for FrustaPlugin {
         load_shader_library!(app, "shaders/bounds.wgsl");
         load_shader_library!(app, "shaders/surface.wgsl");
         load_shader_library!(app, "shaders/view.wgsl");
+        load_shader_library!(app, "shaders/shell_radii.wgsl");
+        load_shader_library!(app, "shaders/shell.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
+        load_shader_library!(app, "shaders/relief.wgsl");
         load_shader_library!(app, "shaders/trace.wgsl");
         load_shader_library!(app, "shaders/material.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");
@@ -109,6 +115,7 @@ impl Plugin for FrustaPlugin {
             .init_resource::<share::FrustaData>()
             .init_resource::<mesh::FrustaMeshes>()
             .init_resource::<FrustaStats>()
+            .init_resource::<relief::ReliefMaps>()
             .add_observer(systems::detach)
             .add_observer(systems::uproot)
             .add_systems(
@@ -123,7 +130,7 @@ impl Plugin for FrustaPlugin {
                         .in_set(VerdureSystems::Attach),
                     systems::cut_planes.in_set(VerdureSystems::CuttingPlanes),
                     systems::update_bounds.in_set(VerdureSystems::Bounds),
-                    systems::collect
+                    (systems::collect, relief::follow_maps)
                         .in_set(VerdureSystems::Upload)
                         .before(AssetEventSystems),
                 ),
@@ -131,9 +138,10 @@ impl Plugin for FrustaPlugin {
         if let Some(render_app) = app.get_sub_app_mut(RenderApp) {
             render_app
                 .init_gpu_resource::<buffers::FrustaBuffers>()
+                .init_gpu_resource::<relief::ReliefTextures>()
                 .add_systems(
                     ExtractSchedule,
-                    buffers::upload.in_set(VerdureSystems::Upload),
+                    (buffers::upload, relief::upload).in_set(VerdureSystems::Upload),
                 );
         }
     }

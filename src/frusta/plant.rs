@@ -7,14 +7,15 @@ use bevy::camera::primitives::Aabb;
 use bevy::ecs::component::Component;
 use bevy::math::Vec3;
 
-use super::component::Frusta;
 use super::extent::aabb;
 use super::links::LinkedSkeleton;
 use super::records::JointRecord;
+use super::shaping::Shaping;
 use super::share::SkeletonKey;
 use super::single::cone::Frustum;
-use super::single::join::{PosedJoint, skin};
-use super::single::surface::align;
+use super::single::join::{NONE, PosedJoint, skin};
+use super::single::shell::{at_height, skin_level, start_radius};
+use super::single::surface::{align, align_turned};
 use super::table::Rows;
 use crate::skeleton::PosedJoints;
 
@@ -22,7 +23,7 @@ use crate::skeleton::PosedJoints;
 #[derive(Component)]
 pub(crate) struct FrustaPlant {
     pub skeleton: SkeletonKey,
-    pub settings: Frusta,
+    pub shaping: Shaping,
     pub linked: Arc<LinkedSkeleton>,
     /// The plant's row, which its `MeshTag` names.
     pub slot: Rows,
@@ -47,7 +48,7 @@ pub(crate) struct OwnPose {
 
 impl OwnPose {
     /// The pose in which a skeleton stands at rest.
-    pub(crate) fn at_rest(linked: &LinkedSkeleton, settings: Frusta) -> Self {
+    pub(crate) fn at_rest(linked: &LinkedSkeleton, shaping: Shaping) -> Self {
         let mut pose = Self {
             posed: linked.rest.clone(),
             frusta: vec![Frustum::default(); linked.links.len()],
@@ -56,32 +57,32 @@ impl OwnPose {
             changed: Vec::new(),
             moving: false,
         };
-        pose.skin(linked, settings, |i| linked.references[i]);
+        pose.skin(linked, shaping, |i| linked.references[i]);
         let joints = pose.posed.iter().zip(&pose.frusta);
         pose.records.extend(joints.map(|(joint, frustum)| {
-            let join = settings.skin().join;
+            let join = shaping.frusta.skin().join;
             JointRecord::new(joint.position, frustum, join, None)
         }));
         pose.changed.push(0..pose.records.len());
-        pose.measure();
+        pose.measure(linked, shaping);
         pose
     }
 
     /// Recomputes cones, cutting planes and records for the joints' new places. Allocates nothing.
-    pub(crate) fn follow(&mut self, linked: &LinkedSkeleton, settings: Frusta, pose: &PosedJoints) {
+    pub(crate) fn follow(&mut self, linked: &LinkedSkeleton, shaping: Shaping, pose: &PosedJoints) {
         for (joint, position) in self.posed.iter_mut().zip(pose.positions()) {
             // A joint that an animation has thrown out of the world stays where it was.
             if position.is_finite() {
                 joint.position = *position;
             }
         }
-        self.skin(linked, settings, |i| {
+        self.skin(linked, shaping, |i| {
             let turned = pose
                 .frame(i)
                 .map(|frame| frame.transform_vector3(linked.references[i]));
             turned.unwrap_or(linked.references[i])
         });
-        let join = settings.skin().join;
+        let join = shaping.frusta.skin().join;
         for (i, record) in self.records.iter_mut().enumerate() {
             let position = self.posed[i].position;
             let new = JointRecord::new(position, &self.frusta[i], join, Some(record));
@@ -103,18 +104,46 @@ impl OwnPose {
     }
 
     /// Recomputes the bounds.
-    pub(crate) fn measure(&mut self) {
-        self.bounds = aabb(&self.frusta);
+    pub(crate) fn measure(&mut self, linked: &LinkedSkeleton, shaping: Shaping) {
+        self.bounds = match shaping.shell() {
+            None => aabb(self.frusta.iter().copied()),
+            Some(shell) => {
+                let rest = |i: u32| linked.rest[i as usize].radius;
+                let outer = self.frusta.iter().enumerate().map(|(i, frustum)| {
+                    let link = &linked.links[i];
+                    if link.parent == NONE {
+                        return *frustum;
+                    }
+                    let to = rest(i as u32);
+                    let from = start_radius(link, rest(link.parent), to);
+                    at_height(frustum, shell.radii(from).1, shell.radii(to).1)
+                });
+                aabb(outer)
+            }
+        };
     }
 
-    fn skin(&mut self, linked: &LinkedSkeleton, settings: Frusta, first: impl Fn(usize) -> Vec3) {
-        skin(
-            &linked.links,
-            &self.posed,
-            settings.skin(),
-            &mut self.frusta,
-        );
-        align(&linked.links, &mut self.frusta, first);
+    fn skin(&mut self, linked: &LinkedSkeleton, shaping: Shaping, first: impl Fn(usize) -> Vec3) {
+        let links = &linked.links;
+        let settings = shaping.frusta.skin();
+        match shaping.shell() {
+            None => {
+                skin(links, &self.posed, settings, &mut self.frusta);
+                align(links, &mut self.frusta, first);
+            }
+            Some(shell) => {
+                let radius = |i: usize| linked.rest[i].radius;
+                skin_level(
+                    links,
+                    &mut self.posed,
+                    radius,
+                    settings,
+                    shell,
+                    &mut self.frusta,
+                );
+                align_turned(links, &mut self.frusta, first);
+            }
+        }
     }
 }
 

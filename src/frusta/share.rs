@@ -7,10 +7,10 @@ use bevy::camera::primitives::Aabb;
 use bevy::ecs::resource::Resource;
 use bevy::platform::collections::HashMap;
 
-use super::component::Frusta;
 use super::links::LinkedSkeleton;
 use super::plant::{FrustaPlant, OwnPose};
 use super::records::{JointRecord, PlantRecord, ShapeRecord};
+use super::shaping::Shaping;
 use super::table::{Rows, Table};
 use crate::skeleton::Skeleton;
 
@@ -29,7 +29,7 @@ pub(crate) struct FrustaData {
     pub plants: Table<PlantRecord>,
     versions: HashMap<AssetId<Skeleton>, u32>,
     skeletons: HashMap<SkeletonKey, SharedSkeleton>,
-    stances: HashMap<(SkeletonKey, Frusta), SharedStance>,
+    stances: HashMap<(SkeletonKey, Shaping), SharedStance>,
     /// Plants that have a place in the tables, and their segments.
     drawn: (usize, usize),
 }
@@ -94,17 +94,17 @@ impl FrustaData {
         &mut self,
         id: AssetId<Skeleton>,
         skeleton: &Skeleton,
-        settings: Frusta,
+        shaping: Shaping,
         posed: bool,
     ) -> Option<FrustaPlant> {
         let key = self.key(id);
         let (linked, first_shape) = self.share_skeleton(key, skeleton)?;
         let (joints, bounds, own) = if posed {
-            let own = OwnPose::at_rest(&linked, settings);
+            let own = OwnPose::at_rest(&linked, shaping);
             let joints = self.joints.allocate(own.records.len());
             (joints, own.bounds, Some(own))
         } else {
-            match self.share_stance(key, &linked, settings) {
+            match self.share_stance(key, &linked, shaping) {
                 Some((joints, bounds)) => (Some(joints), bounds, None),
                 None => (None, Aabb::default(), None),
             }
@@ -117,7 +117,7 @@ impl FrustaData {
             if let Some(joints) = joints {
                 match posed {
                     true => self.joints.free(joints),
-                    false => self.release_stance(key, settings),
+                    false => self.release_stance(key, shaping),
                 }
             }
             self.release_skeleton(key);
@@ -134,7 +134,7 @@ impl FrustaData {
         self.drawn.1 += linked.segments;
         Some(FrustaPlant {
             skeleton: key,
-            settings,
+            shaping,
             linked,
             slot,
             joints,
@@ -150,7 +150,7 @@ impl FrustaData {
         self.plants.free(plant.slot);
         match plant.own {
             Some(_) => self.joints.free(plant.joints),
-            None => self.release_stance(plant.skeleton, plant.settings),
+            None => self.release_stance(plant.skeleton, plant.shaping),
         }
         self.release_skeleton(plant.skeleton);
     }
@@ -180,13 +180,13 @@ impl FrustaData {
         &mut self,
         key: SkeletonKey,
         linked: &LinkedSkeleton,
-        settings: Frusta,
+        shaping: Shaping,
     ) -> Option<(Rows, Aabb)> {
-        if let Some(shared) = self.stances.get_mut(&(key, settings)) {
+        if let Some(shared) = self.stances.get_mut(&(key, shaping)) {
             shared.users += 1;
             return Some((shared.joints, shared.bounds));
         }
-        let stance = OwnPose::at_rest(linked, settings);
+        let stance = OwnPose::at_rest(linked, shaping);
         let joints = self.joints.allocate(stance.records.len())?;
         self.joints.write(joints, 0, &stance.records);
         let shared = SharedStance {
@@ -194,7 +194,7 @@ impl FrustaData {
             bounds: stance.bounds,
             users: 1,
         };
-        self.stances.insert((key, settings), shared);
+        self.stances.insert((key, shaping), shared);
         Some((joints, stance.bounds))
     }
 
@@ -208,12 +208,12 @@ impl FrustaData {
         }
     }
 
-    fn release_stance(&mut self, key: SkeletonKey, settings: Frusta) {
-        if let Some(shared) = self.stances.get_mut(&(key, settings)) {
+    fn release_stance(&mut self, key: SkeletonKey, shaping: Shaping) {
+        if let Some(shared) = self.stances.get_mut(&(key, shaping)) {
             shared.users -= 1;
             if shared.users == 0 {
                 self.joints.free(shared.joints);
-                self.stances.remove(&(key, settings));
+                self.stances.remove(&(key, shaping));
             }
         }
     }

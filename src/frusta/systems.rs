@@ -10,6 +10,7 @@ use super::component::Frusta;
 use super::material::FrustaMaterial;
 use super::mesh::FrustaMeshes;
 use super::plant::FrustaPlant;
+use super::shaping::Shaping;
 use super::share::FrustaData;
 use super::stats::FrustaStats;
 use crate::skeleton::{PosedJoints, Skeleton, Skeleton3d};
@@ -37,6 +38,8 @@ type Unattached = Or<(
     (Without<FrustaPlant>, Without<NoRoom>),
     Changed<Skeleton3d>,
     Changed<Frusta>,
+    Changed<MeshMaterial3d<FrustaMaterial>>,
+    AssetChanged<MeshMaterial3d<FrustaMaterial>>,
     Added<PosedJoints>,
     AssetChanged<Skeleton3d>,
 )>;
@@ -45,6 +48,7 @@ type Unattached = Or<(
 type Attachable<'w> = (
     &'w Skeleton3d,
     &'w Frusta,
+    Option<&'w MeshMaterial3d<FrustaMaterial>>,
     Option<&'w PosedJoints>,
     Option<&'w FrustaPlant>,
 );
@@ -58,6 +62,7 @@ type Attachable<'w> = (
 pub(crate) fn attach(
     mut commands: Commands,
     skeletons: Res<Assets<Skeleton>>,
+    materials: Res<Assets<FrustaMaterial>>,
     mut meshes: ResMut<FrustaMeshes>,
     mut mesh_assets: ResMut<Assets<Mesh>>,
     mut data: ResMut<FrustaData>,
@@ -66,23 +71,25 @@ pub(crate) fn attach(
     plants: Query<Attachable>,
 ) {
     for entity in changed.iter().chain(unposed.read()) {
-        let Ok((skeleton3d, settings, posed, plant)) = plants.get(entity) else {
+        let Ok((skeleton3d, settings, material, posed, plant)) = plants.get(entity) else {
             continue;
         };
+        let material = material.and_then(|material| materials.get(material));
+        let shaping = Shaping::new(*settings, material);
         let id = skeleton3d.id();
         let Some(skeleton) = skeletons.get(id) else {
             continue;
         };
         if let Some(plant) = plant {
             let same = plant.skeleton == data.key(id)
-                && plant.settings == *settings
+                && plant.shaping == shaping
                 && plant.own.is_some() == posed.is_some();
             if same {
                 continue;
             }
         }
         // One that found no room waits until some is given back: `NoRoom` keeps the error from being told every frame.
-        let Some(mut plant) = data.attach(id, skeleton, *settings, posed.is_some()) else {
+        let Some(mut plant) = data.attach(id, skeleton, shaping, posed.is_some()) else {
             commands.entity(entity).try_insert(NoRoom);
             continue;
         };
@@ -90,9 +97,9 @@ pub(crate) fn attach(
         if let (Some(own), Some(posed)) = (&mut plant.own, posed)
             && posed.positions().len() == plant.linked.links.len()
         {
-            own.follow(&plant.linked, plant.settings, posed);
+            own.follow(&plant.linked, plant.shaping, posed);
             own.settle();
-            own.measure();
+            own.measure(&plant.linked, plant.shaping);
             plant.bounds = own.bounds;
         }
         let bounds = plant.bounds;
@@ -142,7 +149,7 @@ pub(crate) fn cut_planes(
         let Some(own) = &mut plant.own else { return };
         let fresh = posed.is_changed() && posed.positions().len() == plant.linked.links.len();
         if fresh {
-            own.follow(&plant.linked, plant.settings, &posed);
+            own.follow(&plant.linked, plant.shaping, &posed);
         } else {
             own.settle();
         }
@@ -156,7 +163,7 @@ pub(crate) fn update_bounds(mut plants: Query<(&mut FrustaPlant, &mut Aabb), Wit
         let plant = plant.bypass_change_detection();
         let Some(own) = &mut plant.own else { return };
         if !own.changed.is_empty() {
-            own.measure();
+            own.measure(&plant.linked, plant.shaping);
             aabb.set_if_neq(own.bounds);
         }
     });

@@ -6,11 +6,11 @@
 //! tangents of the half-angles: on the plane of height p the cones of height w miss each other by about
 //! |w − p| h (t1 + t2) tan(bend/2), twice that where h is relative to ρ. So the middle height halves the largest misfit.
 
-use super::cone::{Cone, End, EndKind, Frustum};
+use super::cone::{Cone, End, EndKind, Frustum, SMALLEST_COSINE_SQUARED};
 use super::join::{Link, NONE, PosedJoint, Skin, skin};
 use super::mitre::mitre;
 use super::scalar::{Real, Vec3, consts};
-use super::surface::align;
+use super::surface::{align, align_turned};
 
 /// Height of the cones whose cutting planes divide the shell.
 pub const PLANE_LEVEL: Real = 0.5;
@@ -32,6 +32,58 @@ impl Thickness {
             Self::Relative(share) => share * radius,
         };
         if h > 0.0 && h.is_finite() { h } else { 0.0 }
+    }
+}
+
+/// Greatest thickness of a shell, in radii of the joint; more is taken for this.
+pub const THICKEST: Real = 8.0;
+/// Least radius of the inner sphere, in radii of the joint: a shell is no thicker below the joint's radius than that
+/// leaves.
+pub const THINNEST: Real = 0.05;
+
+/// Where the shell lies about the joints' spheres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShellShape {
+    /// How thick it is.
+    pub thickness: Thickness,
+    /// The relief height, 0 to 1, that lies at the joints' radii: at 0 the relief stands on them, as in the paper; at
+    /// 1 it is carved into them.
+    pub level: Real,
+}
+
+impl ShellShape {
+    /// Radii of the inner and the outer sphere of a joint.
+    #[inline]
+    pub fn radii(&self, radius: Real) -> (Real, Real) {
+        let level = if self.level > 0.0 {
+            self.level.min(1.0)
+        } else {
+            0.0
+        };
+        let thickest = if level * THICKEST > 1.0 - THINNEST {
+            (1.0 - THINNEST) / level
+        } else {
+            THICKEST
+        };
+        let h = self.thickness.at(radius).min(thickest * radius);
+        let inner = radius - level * h;
+        (inner, inner + h)
+    }
+
+    /// Radius of the sphere of height `w` of a joint.
+    #[inline]
+    pub fn radius_at(&self, radius: Real, w: Real) -> Real {
+        between(self.radii(radius), w)
+    }
+}
+
+impl From<Thickness> for ShellShape {
+    /// The shell stands on the joints' spheres.
+    fn from(thickness: Thickness) -> Self {
+        Self {
+            thickness,
+            level: 0.0,
+        }
     }
 }
 
@@ -117,59 +169,46 @@ impl Shell {
     }
 }
 
-/// Computes the shells of a posed skeleton; like [`skin`], which it follows, not their references.
+/// Computes the frusta of height [`PLANE_LEVEL`] of a posed skeleton with relief, cut by the planes that divide the
+/// shell; like [`skin`], which it follows, not their references. Allocates nothing.
 ///
 /// Which joins are mitres and which ends are flat is decided by the outer frusta: what has room for them has room for
-/// all below. `frusta` is left with those of height [`PLANE_LEVEL`], cut by the shell's planes.
+/// all below. `joints` are those of the outer spheres while this runs, and what they were when it is done.
 ///
 /// # Panics
 /// If the slices differ in length or a link names a joint outside them.
-pub fn skin_shell(
+pub fn skin_level(
     links: &[Link],
-    joints: &[PosedJoint],
+    joints: &mut [PosedJoint],
+    radii: impl Fn(usize) -> Real,
     settings: Skin,
-    thickness: Thickness,
+    shape: ShellShape,
     frusta: &mut [Frustum],
-) -> Vec<Shell> {
-    let outer: Vec<_> = joints
-        .iter()
-        .map(|joint| PosedJoint {
-            radius: joint.radius + thickness.at(joint.radius),
-            ..*joint
-        })
-        .collect();
-    skin(links, &outer, settings, frusta);
-    let mut shells: Vec<Shell> = Vec::with_capacity(links.len());
+) {
+    for (i, joint) in joints.iter_mut().enumerate() {
+        joint.radius = shape.radii(radii(i)).1;
+    }
+    skin(links, joints, settings, frusta);
+    for (i, joint) in joints.iter_mut().enumerate() {
+        joint.radius = radii(i);
+    }
     for (i, link) in links.iter().enumerate() {
-        let mut shell = Shell {
-            frustum: frusta[i],
-            ..Shell::default()
-        };
-        if link.parent != NONE {
-            let (from, to) = (joints[link.parent as usize].radius, joints[i].radius);
-            let from = if link.continues { from } else { from.min(to) };
-            shell.start = (from, from + thickness.at(from));
-            shell.end = (to, to + thickness.at(to));
+        if link.parent == NONE {
+            continue;
         }
-        if frusta[i].has_cone() {
-            let cone = |w: Real| {
-                let (from, to) = (between(shell.start, w), between(shell.end, w));
-                Cone::touching(frusta[i].axis, frusta[i].length, from, to)
-            };
-            let (inner, level, outer) = (cone(0.0), cone(PLANE_LEVEL), cone(1.0));
-            shell.inner = (inner.radius, inner.slope);
-            shell.outer = (outer.radius, outer.slope);
-            let frustum = &mut shell.frustum;
-            (frustum.radius, frustum.slope, frustum.secant) =
-                (level.radius, level.slope, level.secant);
-            frustum.start.radius = between(shell.start, PLANE_LEVEL);
-            frustum.end.radius = between(shell.end, PLANE_LEVEL);
-            let sine = level.sine();
+        let to = joints[i].radius;
+        let from = start_radius(link, joints[link.parent as usize].radius, to);
+        let (from, to) = (
+            shape.radius_at(from, PLANE_LEVEL),
+            shape.radius_at(to, PLANE_LEVEL),
+        );
+        let frustum = &mut frusta[i];
+        *frustum = at_height(frustum, from, to);
+        if frustum.has_cone() {
+            let sine = frustum.cone().sine();
             lower(&mut frustum.start, sine);
             lower(&mut frustum.end, sine);
         }
-        frusta[i] = shell.frustum;
-        shells.push(shell);
     }
     for (second, link) in links.iter().enumerate() {
         let first = link.parent as usize;
@@ -186,10 +225,75 @@ pub fn skin_shell(
                 end.offset = mitre.plane.offset;
             }
         }
-        shells[first].frustum.end = frusta[first].end;
-        shells[second].frustum.start = frusta[second].start;
     }
+}
+
+/// A frustum of height [`PLANE_LEVEL`] at another height, that of the spheres of radius `from` at its start and `to` at
+/// its end.
+pub fn at_height(level: &Frustum, from: Real, to: Real) -> Frustum {
+    let mut frustum = *level;
+    frustum.start.radius = from;
+    frustum.end.radius = to;
+    if level.has_cone() {
+        let cone = shell_cone(level.axis, level.length, from, to);
+        (frustum.radius, frustum.slope, frustum.secant) = (cone.radius, cone.slope, cone.secant);
+    }
+    frustum
+}
+
+/// Radius of the sphere at a segment's start. A branch starts with its own.
+#[inline]
+pub fn start_radius(link: &Link, from: Real, to: Real) -> Real {
+    if link.continues { from } else { from.min(to) }
+}
+
+/// The cone of one height. Where a clamped thickness leaves one sphere inside the other, the steepest there is.
+#[inline]
+pub fn shell_cone(axis: Vec3, length: Real, from: Real, to: Real) -> Cone {
+    let steepest = 1.0 - SMALLEST_COSINE_SQUARED;
+    let sine = ((from - to) / length).clamp(-steepest, steepest);
+    Cone::opening(axis, from, sine)
+}
+
+/// Computes the shells of a posed skeleton as [`skin_level`] does. `frusta` is left with those of height
+/// [`PLANE_LEVEL`].
+///
+/// # Panics
+/// If the slices differ in length or a link names a joint outside them.
+pub fn skin_shell(
+    links: &[Link],
+    joints: &[PosedJoint],
+    settings: Skin,
+    shape: impl Into<ShellShape>,
+    frusta: &mut [Frustum],
+) -> Vec<Shell> {
+    let shape = shape.into();
+    let radius = |i: usize| joints[i].radius;
+    skin_level(links, &mut joints.to_vec(), radius, settings, shape, frusta);
+    let shells = links.iter().zip(frusta.iter()).enumerate();
     shells
+        .map(|(i, (link, frustum))| {
+            let mut shell = Shell {
+                frustum: *frustum,
+                ..Shell::default()
+            };
+            if link.parent != NONE {
+                let (from, to) = (radius(link.parent as usize), radius(i));
+                shell.start = shape.radii(start_radius(link, from, to));
+                shell.end = shape.radii(to);
+            }
+            if frustum.has_cone() {
+                let cone = |w: Real| {
+                    let (from, to) = (between(shell.start, w), between(shell.end, w));
+                    shell_cone(frustum.axis, frustum.length, from, to)
+                };
+                let (inner, outer) = (cone(0.0), cone(1.0));
+                shell.inner = (inner.radius, inner.slope);
+                shell.outer = (outer.radius, outer.slope);
+            }
+            shell
+        })
+        .collect()
 }
 
 /// Moves an end's plane from the outer cone's contact circle to this cone's. Mitres are replaced later.
@@ -224,12 +328,10 @@ pub fn align_shells(
 ) {
     let mut frusta: Vec<_> = shells.iter().map(|shell| shell.frustum).collect();
     if continuous {
-        // Where an end is no cut, `align` turns the reference with the axis.
-        for frustum in &mut frusta {
-            frustum.end.kind = EndKind::Round;
-        }
+        align_turned(links, &mut frusta, first);
+    } else {
+        align(links, &mut frusta, first);
     }
-    align(links, &mut frusta, first);
     for (i, link) in links.iter().enumerate() {
         shells[i].frustum.reference = frusta[i].reference;
         shells[i].skew = Vec3::ZERO;
@@ -241,7 +343,7 @@ pub fn align_shells(
 }
 
 /// κ times the direction of the outside of the bend, across the second axis; zero where there is no mitre.
-fn skew(first: &Frustum, second: &Frustum) -> Vec3 {
+pub fn skew(first: &Frustum, second: &Frustum) -> Vec3 {
     let (m1, m2) = (first.axis, second.axis);
     let mitred = first.end.kind == EndKind::Cut && first.has_cone() && second.has_cone();
     let cosine = m1.dot(m2);

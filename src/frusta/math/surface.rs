@@ -100,6 +100,27 @@ pub fn surface_point(
 /// # Panics
 /// If the slices differ in length.
 pub fn align(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Vec3) {
+    align_by(links, frusta, first, carry_over);
+}
+
+/// The same, but references are turned with the axis at all joins, as relief wants them: its u is in line all round a
+/// cut ([`skew`](super::shell::skew)).
+///
+/// # Panics
+/// If the slices differ in length.
+pub fn align_turned(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Vec3) {
+    align_by(links, frusta, first, |first, twist, second| {
+        turn_over(at_end(first, twist), first, second)
+    });
+}
+
+#[inline(always)]
+fn align_by(
+    links: &[Link],
+    frusta: &mut [Frustum],
+    first: impl Fn(usize) -> Vec3,
+    carry: impl Fn(&Frustum, Real, &Frustum) -> Vec3,
+) {
     assert_eq!(links.len(), frusta.len());
     for i in 0..links.len() {
         let parent = links[i].parent;
@@ -110,7 +131,7 @@ pub fn align(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Ve
         let wish = if links[parent].parent == NONE {
             first(i)
         } else {
-            carry_over(&frusta[parent], links[parent].twist, &frusta[i])
+            carry(&frusta[parent], links[parent].twist, &frusta[i])
         };
         let axis = frusta[i].axis;
         frusta[i].reference = (wish - axis * wish.dot(axis))
@@ -119,14 +140,20 @@ pub fn align(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Ve
     }
 }
 
+/// The direction of u = 0 at a frustum's end.
+#[inline(always)]
+fn at_end(frustum: &Frustum, twist: Real) -> Vec3 {
+    if twist == 0.0 {
+        return frustum.reference;
+    }
+    // u = φ/2π + v θ/2π is 0 at v = 1 where φ = −θ.
+    frustum.reference * twist.cos() - frustum.axis.cross(frustum.reference) * twist.sin()
+}
+
 /// The first frustum's point u = 0 at its end, seen from the second.
 #[inline]
 fn carry_over(first: &Frustum, twist: Real, second: &Frustum) -> Vec3 {
-    let mut across = first.reference;
-    if twist != 0.0 {
-        // u = φ/2π + v θ/2π is 0 at v = 1 where φ = −θ.
-        across = across * twist.cos() - first.axis.cross(across) * twist.sin();
-    }
+    let across = at_end(first, twist);
     if first.end.kind == EndKind::Cut && first.has_cone() {
         // Bring u in line on the cutting plane: this point lies on both cones.
         let at_joint = first.radius + first.slope * first.length;
@@ -135,7 +162,12 @@ fn carry_over(first: &Frustum, twist: Real, second: &Frustum) -> Vec3 {
         let y = (first.end.offset - at_joint * q) / (m + first.slope * q).max(GRAZING);
         return first.axis * y + across * (at_joint + first.slope * y);
     }
-    // The shortest turn from one axis to the other; at a fold there is none, and the direction is across both.
+    turn_over(across, first, second)
+}
+
+/// The shortest turn from one axis to the other; at a fold there is none, and the direction is across both.
+#[inline(always)]
+fn turn_over(across: Vec3, first: &Frustum, second: &Frustum) -> Vec3 {
     let sum = first.axis + second.axis;
     let cosine = 1.0 + first.axis.dot(second.axis);
     if cosine > GRAZING {

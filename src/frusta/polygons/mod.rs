@@ -31,7 +31,7 @@ use thiserror::Error;
 use super::component::{Ends, Join};
 use super::double::cone::{EndKind, Frustum};
 use super::double::join::{JoinKind, Link, NONE, PosedJoint, Skin};
-use super::double::shell::{Thickness, align_shells, skin_shell};
+use super::double::shell::{ShellShape, Thickness, align_shells, skin_shell};
 
 use limb::Limbs;
 use sheet::Sheet;
@@ -41,8 +41,8 @@ use sheet::Sheet;
 pub struct MeshRelief<'a> {
     /// H of u and the map's v, both of which repeat with 1. Clamped to 0..=1; NaN counts as 0.
     pub height: &'a dyn Fn(f64, f64) -> f64,
-    /// Thickness of the shell that H spans.
-    pub thickness: Thickness,
+    /// The shell that H spans.
+    pub shell: ShellShape,
 }
 
 /// How a skeleton is made into polygons.
@@ -147,11 +147,12 @@ pub fn polygons(
             Ends::Flat => EndKind::Flat,
         },
     };
-    let thickness = settings
-        .relief
-        .map_or(Thickness::Metres(0.0), |relief| relief.thickness);
+    let shape = match settings.relief {
+        Some(relief) => relief.shell,
+        None => Thickness::Metres(0.0).into(),
+    };
     let mut frusta = vec![Frustum::default(); links.len()];
-    let mut shells = skin_shell(links, joints, skin, thickness, &mut frusta);
+    let mut shells = skin_shell(links, joints, skin, shape, &mut frusta);
     align_shells(links, &mut shells, settings.continuous_u, first);
     let mut sheet = Sheet::new(8 << settings.subdivisions);
     Limbs {

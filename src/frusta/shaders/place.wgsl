@@ -5,7 +5,12 @@
 
 #import bevy_pbr::mesh_bindings::mesh
 #import bevy_pbr::mesh_functions
-#import bevy_verdure::frusta::types::{Frustum, End, plants, load_frustum}
+#import bevy_verdure::frusta::types::{Frustum, End, Plant, plants, load_frustum}
+#ifdef FRUSTA_RELIEF
+#import bevy_verdure::frusta::types::{joints, shapes, start_radius, vec3_from, CUT, ROUND, NONE}
+#import bevy_verdure::frusta::shell::{at_height, skew}
+#import bevy_verdure::frusta::shell_radii::{radius_at, relief}
+#endif
 #import bevy_verdure::frusta::bounds::{bounds, bounds_corner, bounds_width}
 #import bevy_verdure::frusta::view::{
     Stand, RayFrame, stand, ray_frame, pixel_width, local_to_clip, is_orthographic,
@@ -44,6 +49,14 @@ struct Varying {
     // Greatest distance from the axis that the segment reaches, and the greatest width of a pixel, in local metres.
     @location(11) @interpolate(flat) reach: vec2<f32>,
 #endif
+#ifdef FRUSTA_RELIEF
+    // The frustum above is that of the map's greatest height. Of its least: radius, slope, and both ends' radii.
+    @location(12) @interpolate(flat) floor: vec4<f32>,
+    // How u leans at the start, and the mean length of a world's metre in local space.
+    @location(13) @interpolate(flat) skew_metre: vec4<f32>,
+    // The plane where the next segment takes over from the ball of a round join.
+    @location(14) @interpolate(flat) beyond: vec4<f32>,
+#endif
 }
 
 fn place_corner(in: Corner) -> Varying {
@@ -56,7 +69,19 @@ fn place_corner(in: Corner) -> Varying {
     if segment >= plant.joint_count {
         return out;
     }
-    let frustum = load_frustum(plant, segment);
+    var frustum = load_frustum(plant, segment);
+#ifdef FRUSTA_RELIEF
+    let level = frustum;
+    if shapes[plant.first_shape + segment].parent != NONE {
+        let radius_from = start_radius(plant, segment);
+        let radius_to = shapes[plant.first_shape + segment].radius;
+        let w = relief.range;
+        frustum = at_height(level, radius_at(radius_from, w.y), radius_at(radius_to, w.y));
+        let lowest = at_height(level, radius_at(radius_from, w.x), radius_at(radius_to, w.x));
+        out.floor = vec4(lowest.radius, lowest.slope, lowest.start.radius, lowest.end.radius);
+        out.beyond = takes_over(plant, segment, frustum);
+    }
+#endif
     let place = stand(in.instance_index);
     let pixel = local_pixel_width(place, frustum);
     let b = bounds(frustum, MARGIN * pixel.y);
@@ -89,8 +114,47 @@ fn place_corner(in: Corner) -> Varying {
 #ifdef FRUSTA_MULTISAMPLED
     out.reach = vec2(bounds_width(b), pixel.y);
 #endif
+#ifdef FRUSTA_RELIEF
+    let metre = pow(abs(determinant(place.local_from_world)), 1.0 / 3.0);
+    out.skew_metre = vec4(skew_at_start(plant, segment, level), metre);
+#endif
     return out;
 }
+
+#ifdef FRUSTA_RELIEF
+// The plane, about the segment's end, where the next segment takes over from the ball of a round join; out of reach
+// where none does.
+fn takes_over(plant: Plant, segment: u32, frustum: Frustum) -> vec4<f32> {
+    let next = shapes[plant.first_shape + segment].next;
+    if frustum.end.kind == ROUND && next != NONE && frustum.radius > 0.0 {
+        let record = joints[plant.first_joint + next];
+        if record.base_radius > 0.0 {
+            return vec4(vec3_from(record.plane_normal), record.plane_offset);
+        }
+    }
+    return vec4(frustum.axis, 1e30);
+}
+
+// How u leans at a segment's start, to be in line with the segment before.
+fn skew_at_start(plant: Plant, segment: u32, level: Frustum) -> vec3<f32> {
+    let before = shapes[plant.first_shape + segment].parent;
+    if before == NONE {
+        return vec3(0.0);
+    }
+    let shape = shapes[plant.first_shape + before];
+    let record = joints[plant.first_joint + before];
+    let mitred = shape.parent != NONE
+        && shape.next == segment
+        && ((record.bits >> 2u) & 3u) == CUT
+        && record.base_radius > 0.0
+        && level.radius > 0.0;
+    if !mitred {
+        return vec3(0.0);
+    }
+    let from_joint = vec3_from(joints[plant.first_joint + shape.parent].position);
+    return skew(normalize(vec3_from(record.position) - from_joint), record.slope, level);
+}
+#endif
 
 // The width of a pixel at a segment, in local metres: the mean over all directions, and the greatest, which differ where
 // the plant is not scaled alike.

@@ -11,6 +11,10 @@
     PixelRay, RayFrame, stand, pixel_ray, near_depth, buffer_depth, local_to_world,
 }
 
+#ifdef FRUSTA_RELIEF
+#import bevy_verdure::frusta::relief::{Shell, ReliefHit, shell_of, march, height, map_pixels, ball_across, turn_of}
+#endif
+
 // Share of a pixel by which cutting planes overlap.
 const SLACK: f32 = 0.01;
 
@@ -24,23 +28,95 @@ struct Seen {
     // Samples of the pixel that see the segment; 0 for a miss.
     coverage: u32,
     depth: f32,
+#ifdef FRUSTA_RELIEF
+    shell: Shell,
+    // Height in the shell and v of the hit.
+    w: f32,
+    v: f32,
+#endif
 }
 
 fn see(in: Varying, sample_mask: u32) -> Seen {
     var seen: Seen;
     seen.frustum = frustum_of(in);
     seen.frame = ray_frame_of(in);
-    let slack = SLACK * pixel_of(in);
     seen.ray = pixel_ray(seen.frame, in.position.xy);
+#ifdef FRUSTA_RELIEF
+    see_relief(&seen, in, sample_mask);
+#else
+    see_surface(&seen, in, sample_mask);
+#endif
+    seen.depth = buffer_depth(seen.hit.t, seen.ray.view_xy);
+#ifdef FRUSTA_UNCLIPPED_DEPTH
+    seen.depth = min(seen.depth, 1.0);
+#else
+    // Beyond the far plane, which only an orthographic view has.
+    if seen.depth < 0.0 {
+        seen.coverage = 0u;
+    }
+#endif
+    return seen;
+}
+
+#ifdef FRUSTA_RELIEF
+fn see_relief(seen: ptr<function, Seen>, in: Varying, sample_mask: u32) {
+    let shell = shell_of(in);
+    (*seen).shell = shell;
+    let ray = (*seen).ray;
+    let found = march(Ray(ray.origin, ray.direction), shell, least_depth(ray));
+    take(seen, found);
+    (*seen).coverage = select(0u, sample_mask, found.hit.t < NO_ROOT);
+#ifdef FRUSTA_MULTISAMPLED
+    // Where the ray is well within the floor's outline, so are those of all samples.
+    if found.grounded {
+        var ground = *seen;
+        ground.frustum = shell.floor;
+        ground.hit = cast_ray(Ray(ray.origin, ray.direction), shell.floor, least_depth(ray), 0.0);
+        if is_inside(ground, in.reach.y, false) {
+            return;
+        }
+    } else if found.hit.t >= NO_ROOT && is_outside(*seen, in) {
+        return;
+    }
+    var coverage = 0u;
+    for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
+        if (sample_mask & (1u << i)) == 0u {
+            continue;
+        }
+        let sample_ray = pixel_ray((*seen).frame, in.position.xy + sample_offset(i));
+        let sample = march(Ray(sample_ray.origin, sample_ray.direction), shell, least_depth(sample_ray));
+        if sample.hit.t >= NO_ROOT {
+            continue;
+        }
+        if (*seen).hit.t >= NO_ROOT {
+            (*seen).ray = sample_ray;
+            take(seen, sample);
+        }
+        coverage |= 1u << i;
+    }
+    (*seen).coverage = coverage;
+#endif
+}
+
+fn take(seen: ptr<function, Seen>, found: ReliefHit) {
+    (*seen).hit = found.hit;
+    (*seen).w = found.w;
+    (*seen).v = found.v;
+}
+#else
+fn see_surface(pointer: ptr<function, Seen>, in: Varying, sample_mask: u32) {
+    var seen = *pointer;
+    let slack = SLACK * pixel_of(in);
     seen.hit = cast_ray(Ray(seen.ray.origin, seen.ray.direction), seen.frustum, least_depth(seen.ray), slack);
     seen.coverage = select(0u, sample_mask, seen.hit.t < NO_ROOT);
 #ifdef FRUSTA_MULTISAMPLED
     // Coverage is the geometry's own: along outlines each sample casts its own ray, and the pixel is shaded once.
     var faces = seen.hit.t < NO_ROOT && is_facing(seen.frustum, seen.hit, seen.ray.direction);
     if seen.hit.t >= NO_ROOT && is_outside(seen, in) {
-        return seen;
+        *pointer = seen;
+        return;
     }
-    if !faces || !is_inside(seen, in.reach.y) {
+    if !faces || !is_inside(seen, in.reach.y, true) {
         var coverage = 0u;
         for (var i = 0u; i < #{FRUSTA_SAMPLES}u; i++) {
             let ray = pixel_ray(seen.frame, in.position.xy + sample_offset(i));
@@ -64,17 +140,9 @@ fn see(in: Varying, sample_mask: u32) -> Seen {
         seen.coverage = coverage;
     }
 #endif
-    seen.depth = buffer_depth(seen.hit.t, seen.ray.view_xy);
-#ifdef FRUSTA_UNCLIPPED_DEPTH
-    seen.depth = min(seen.depth, 1.0);
-#else
-    // Beyond the far plane, which only an orthographic view has.
-    if seen.depth < 0.0 {
-        seen.coverage = 0u;
-    }
-#endif
-    return seen;
+    *pointer = seen;
 }
+#endif
 
 // Rays count from the near plane, but in shadow maps of directional lights from before it.
 fn least_depth(ray: PixelRay) -> f32 {
@@ -109,8 +177,9 @@ fn is_outside(seen: Seen, in: Varying) -> bool {
 }
 
 // True if a hit is so far inside the part it lies on that all rays of its pixel hit it: two pixels, seen at its slant,
-// from the part's outline and from the planes that end it. `pixel` is the width of one, in local metres.
-fn is_inside(seen: Seen, pixel: f32) -> bool {
+// from the part's outline and, where planes count, from the planes that end it. `pixel` is the width of one, in local
+// metres.
+fn is_inside(seen: Seen, pixel: f32, planes_count: bool) -> bool {
     let frustum = seen.frustum;
     let point = seen.hit.point;
     let tip = point - frustum.axis * frustum.length;
@@ -137,7 +206,7 @@ fn is_inside(seen: Seen, pixel: f32) -> bool {
     let d = seen.ray.direction;
     let cosine = min(abs(dot(normal, d)) / (length(normal) * length(d)), 1.0);
     let to_outline = radius * (1.0 - sqrt(1.0 - cosine * cosine));
-    return min(to_outline, room * cosine) > 2.0 * pixel;
+    return min(to_outline, select(to_outline, room * cosine, planes_count)) > 2.0 * pixel;
 }
 
 // The standard sample positions, relative to the pixel's centre, in sixteenths of a pixel.
@@ -174,12 +243,28 @@ fn surface(seen: Seen, in: Varying) -> Surface {
     let joint = joints[plant.first_joint + segment];
     let shape = shapes[plant.first_shape + segment];
     let place = stand(in.instance_index);
+#ifdef FRUSTA_RELIEF
+    // The frustum of the hit's own height.
+    var frustum = seen.frustum;
+    let floor = seen.shell.floor;
+    frustum.radius = mix(floor.radius, frustum.radius, seen.w);
+    frustum.slope = mix(floor.slope, frustum.slope, seen.w);
+    var s = surface_point(frustum, seen.shell.reference, shape.twist, seen.hit.point, seen.hit.part);
+    s.v = seen.v;
+    var across = s.across;
+    if seen.hit.part == START {
+        across = ball_across(seen.shell, seen.hit.point, START);
+    } else if seen.hit.part == END {
+        across = ball_across(seen.shell, seen.hit.point - frustum.axis * frustum.length, END);
+    }
+    s.u = fract(turn_of(seen.shell, across, s.v));
+#else
     let frustum = seen.frustum;
     let reference = reference_across(joint.reference, frustum.axis);
     let s = surface_point(frustum, reference, shape.twist, seen.hit.point, seen.hit.part);
+#endif
     var out: Surface;
     out.world_position = vec4(local_to_world(place, frustum.base + seen.hit.point), 1.0);
-    out.world_normal = normalize(transpose(place.local_from_world) * s.normal);
     let around = cross(frustum.axis, s.across);
     out.world_tangent = vec4(normalize(place.world_from_local * around), -place.handedness);
     let v_length = shape.v_end - shape.v_start;
@@ -206,8 +291,46 @@ fn surface(seen: Seen, in: Varying) -> Surface {
             out.uv_dy = gradient;
         }
     }
+    var normal = s.normal;
+#ifdef FRUSTA_RELIEF
+    normal = relief_normal(seen, s, out, around, generator, frustum);
+#endif
+    out.world_normal = normalize(transpose(place.local_from_world) * normal);
     return out;
 }
+
+#ifdef FRUSTA_RELIEF
+// The shading normal leant by the relief's gradient: that of w − H(u, v), times the shell's thickness.
+fn relief_normal(
+    seen: Seen,
+    s: SurfacePoint,
+    surface: Surface,
+    around: vec3<f32>,
+    generator: vec3<f32>,
+    frustum: Frustum,
+) -> vec3<f32> {
+    let shell = seen.shell;
+    // Differences over a pixel of the map or of the screen, whichever is larger.
+    let pixels = map_pixels();
+    let footprint = max(length(surface.uv_dx * pixels), length(surface.uv_dy * pixels));
+    let lod = max(log2(footprint), 0.0);
+    let du = 0.5 * exp2(lod) / max(pixels.x, 1e-6);
+    let dv = 0.5 * exp2(lod) / max(pixels.y * abs(shell.v_length), 1e-6);
+    let slope_u = height(shell, s.u + du, s.v, lod) - height(shell, s.u - du, s.v, lod);
+    let slope_v = height(shell, s.u, s.v + dv, lod) - height(shell, s.u, s.v - dv, lod);
+    var thickness = shell.top.radius - shell.floor.radius;
+    if seen.hit.part == START {
+        thickness = shell.top.start.radius - shell.floor.start.radius;
+    } else if seen.hit.part == END {
+        thickness = shell.top.end.radius - shell.floor.end.radius;
+    }
+    let h_u = slope_u / (2.0 * du) / (TAU * max(s.distance, 1e-6));
+    let h_v = slope_v / (2.0 * dv) / s.span;
+    // On balls v does not change.
+    let leans = around * h_u + generator * select(0.0, h_v, seen.hit.part == CONE);
+    return normalize(s.normal) - leans * thickness;
+}
+#endif
 
 // Where the seen point was in the frame before, in the plant's local space of that frame.
 fn previous_local_position(seen: Seen, in: Varying) -> vec3<f32> {

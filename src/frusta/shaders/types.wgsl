@@ -3,6 +3,10 @@
 // The records of `records.rs`, and a segment's frustum as the geometry knows it (`math/cone.rs`).
 // A segment has the index of the joint that ends it.
 
+#ifdef FRUSTA_RELIEF
+#import bevy_verdure::frusta::shell_radii::{radius_at, PLANE_LEVEL}
+#endif
+
 // A joint in its pose, with what is needed of the segment that it ends. Scalars, so that no row is padded.
 struct JointRecord {
     position: array<f32, 3>,
@@ -77,6 +81,15 @@ fn start_radius(plant: Plant, segment: u32) -> f32 {
     return select(min(parent.radius, shape.radius), parent.radius, parent.next == segment);
 }
 
+// Radius of the sphere whose cones the records hold: the joint's, or with relief that of the height of the planes.
+fn sphere_radius(radius: f32) -> f32 {
+#ifdef FRUSTA_RELIEF
+    return radius_at(radius, PLANE_LEVEL);
+#else
+    return radius;
+#endif
+}
+
 fn load_frustum(plant: Plant, segment: u32) -> Frustum {
     let joint = joints[plant.first_joint + segment];
     let shape = shapes[plant.first_shape + segment];
@@ -100,16 +113,16 @@ fn load_frustum(plant: Plant, segment: u32) -> Frustum {
     frustum.start = End(
         vec3_from(joint.plane_normal),
         joint.plane_offset,
-        start_radius(plant, segment),
+        sphere_radius(start_radius(plant, segment)),
         joint.bits & 3u,
     );
-    frustum.end = End(frustum.axis, 0.0, shape.radius, (joint.bits >> 2u) & 3u);
+    frustum.end = End(frustum.axis, 0.0, sphere_radius(shape.radius), (joint.bits >> 2u) & 3u);
     if frustum.end.kind == ROUND {
         if (joint.bits & WHOLE_SPHERE) != 0u {
             frustum.end.offset = -WHOLE;
         } else if (joint.bits & PAPER) == 0u {
             // The contact circle.
-            frustum.end.offset = -shape.radius * frustum.slope / sqrt(1.0 + frustum.slope * frustum.slope);
+            frustum.end.offset = -frustum.end.radius * frustum.slope / sqrt(1.0 + frustum.slope * frustum.slope);
         }
     } else if frustum.end.kind == CUT && shape.next != NONE {
         let next = joints[plant.first_joint + shape.next];

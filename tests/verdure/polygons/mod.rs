@@ -94,7 +94,7 @@ fn both<'a>(
         ends,
         relief: Some(MeshRelief {
             height: relief,
-            thickness,
+            shell: thickness.into(),
         }),
         continuous_u,
         close_branches: false,

@@ -46,7 +46,10 @@ fn mesh((links, joints): &(Vec<Link>, Vec<PosedJoint>), settings: &MeshSettings)
 
 const WAVES: MeshRelief = MeshRelief {
     height: &|u, v| 0.5 + 0.3 * (3.0 * TAU * u).sin() + 0.2 * (2.0 * TAU * v).cos(),
-    thickness: Thickness::Relative(0.3),
+    shell: ShellShape {
+        thickness: Thickness::Relative(0.3),
+        level: 0.0,
+    },
 };
 
 /// Every combination of joins, ends and relief.
@@ -183,7 +186,10 @@ fn the_volume_is_that_of_the_frusta() {
     // Relief of one height is a thicker limb.
     let relief = MeshRelief {
         height: &|_, _| 0.5,
-        thickness: Thickness::Metres(0.1),
+        shell: ShellShape {
+            thickness: Thickness::Metres(0.1),
+            level: 0.0,
+        },
     };
     let thick = MeshSettings {
         relief: Some(relief),

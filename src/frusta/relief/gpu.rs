@@ -1,0 +1,221 @@
+//! Maps and settings in the render world.
+
+use bevy::asset::AssetId;
+use bevy::image::Image;
+use bevy::platform::collections::HashMap;
+use bevy::prelude::*;
+use bevy::render::Extract;
+use bevy::render::render_resource::{
+    AddressMode, BindGroupLayoutEntry, BindingType, BufferBindingType, BufferInitDescriptor,
+    BufferUsages, Extent3d, FilterMode, MipmapFilterMode, OwnedBindingResource, Sampler,
+    SamplerBindingType, SamplerDescriptor, ShaderStages, TextureDataOrder, TextureDescriptor,
+    TextureDimension, TextureFormat, TextureSampleType, TextureUsages, TextureView,
+    TextureViewDescriptor, TextureViewDimension,
+};
+use bevy::render::renderer::{RenderDevice, RenderQueue};
+use bytemuck::{Pod, Zeroable};
+
+use super::library::ReliefMaps;
+use super::map::ReliefMap;
+use super::settings::{Relief, ReliefSteps, ReliefThickness};
+
+/// The textures of all relief maps in use. Lives in the render world.
+#[derive(Resource, Default)]
+pub struct ReliefTextures {
+    /// What materials without relief are given.
+    flat: Option<ReliefTexture>,
+    sampler: Option<Sampler>,
+    by_image: HashMap<AssetId<Image>, ReliefTexture>,
+}
+
+#[derive(Clone)]
+struct ReliefTexture {
+    version: u32,
+    view: TextureView,
+    size: [u32; 2],
+    range: [u8; 2],
+}
+
+/// Greatest number of steps, and of halvings, that a setting may ask for.
+const MOST_STEPS: u32 = 1024;
+const MOST_BISECTIONS: u32 = 16;
+
+/// The settings of one material, as `shaders/relief.wgsl` has them.
+#[derive(Clone, Copy, Default, Pod, Zeroable)]
+#[repr(C)]
+struct ReliefUniform {
+    metres: f32,
+    share: f32,
+    level: f32,
+    /// 0 for as many as the shell needs on screen.
+    steps: u32,
+    /// Least and greatest height of the map.
+    range: [f32; 2],
+    /// Pixels of the map.
+    size: [f32; 2],
+    bisections: u32,
+    unused: [u32; 3],
+}
+
+/// What a material binds for relief.
+pub(crate) struct ReliefBindings;
+
+impl ReliefBindings {
+    /// Bindings after `first` that [`entries`](Self::entries) lays out.
+    pub(crate) const COUNT: u32 = 3;
+
+    /// The layout, from binding `first` on.
+    pub(crate) fn entries(first: u32) -> [BindGroupLayoutEntry; Self::COUNT as usize] {
+        let visibility = ShaderStages::VERTEX_FRAGMENT;
+        let entry = |binding, visibility, ty| BindGroupLayoutEntry {
+            binding,
+            visibility,
+            ty,
+            count: None,
+        };
+        [
+            entry(
+                first,
+                visibility,
+                BindingType::Buffer {
+                    ty: BufferBindingType::Uniform,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+            ),
+            entry(
+                first + 1,
+                ShaderStages::FRAGMENT,
+                BindingType::Texture {
+                    sample_type: TextureSampleType::Float { filterable: true },
+                    view_dimension: TextureViewDimension::D2,
+                    multisampled: false,
+                },
+            ),
+            entry(
+                first + 2,
+                ShaderStages::FRAGMENT,
+                BindingType::Sampler(SamplerBindingType::Filtering),
+            ),
+        ]
+    }
+
+    /// The resources of a material in the order of the layout; `None` while its map is not there yet.
+    pub(crate) fn resources(
+        relief: Option<&Relief>,
+        textures: &ReliefTextures,
+        device: &RenderDevice,
+    ) -> Option<[OwnedBindingResource; Self::COUNT as usize]> {
+        let texture = match relief {
+            Some(relief) => textures.by_image.get(&relief.map.id())?,
+            None => textures.flat.as_ref()?,
+        };
+        let uniform = relief.map_or_else(ReliefUniform::default, |relief| uniform(relief, texture));
+        let buffer = device.create_buffer_with_data(&BufferInitDescriptor {
+            label: Some("frusta_relief"),
+            contents: bytemuck::bytes_of(&uniform),
+            usage: BufferUsages::UNIFORM,
+        });
+        Some([
+            OwnedBindingResource::Buffer(buffer),
+            OwnedBindingResource::TextureView(TextureViewDimension::D2, texture.view.clone()),
+            OwnedBindingResource::Sampler(
+                SamplerBindingType::Filtering,
+                textures.sampler.as_ref()?.clone(),
+            ),
+        ])
+    }
+}
+
+fn uniform(relief: &Relief, texture: &ReliefTexture) -> ReliefUniform {
+    let (metres, share) = match relief.thickness {
+        ReliefThickness::Metres(h) => (h, 0.0),
+        ReliefThickness::Relative(share) => (0.0, share),
+    };
+    ReliefUniform {
+        metres,
+        share,
+        // NaN becomes 0.
+        level: if relief.level > 0.0 {
+            relief.level.min(1.0)
+        } else {
+            0.0
+        },
+        steps: match relief.steps {
+            ReliefSteps::Auto => 0,
+            ReliefSteps::Fixed(steps) => steps.clamp(1, MOST_STEPS),
+        },
+        range: texture.range.map(|height| f32::from(height) / 255.0),
+        size: texture.size.map(|side| side as f32),
+        bisections: relief.bisections.min(MOST_BISECTIONS),
+        unused: [0; 3],
+    }
+}
+
+/// Brings the textures up to date with the maps.
+pub(crate) fn upload(
+    mut textures: ResMut<ReliefTextures>,
+    maps: Extract<Res<ReliefMaps>>,
+    device: Res<RenderDevice>,
+    queue: Res<RenderQueue>,
+) {
+    if textures.flat.is_none() {
+        textures.flat = Some(texture(&ReliefMap::flat(), 0, &device, &queue));
+        textures.sampler = Some(device.create_sampler(&SamplerDescriptor {
+            label: Some("frusta_relief"),
+            address_mode_u: AddressMode::Repeat,
+            address_mode_v: AddressMode::Repeat,
+            mag_filter: FilterMode::Linear,
+            min_filter: FilterMode::Linear,
+            mipmap_filter: MipmapFilterMode::Linear,
+            ..default()
+        }));
+    } else if !maps.is_changed() {
+        return;
+    }
+    let textures = textures.as_mut();
+    let mut kept = HashMap::default();
+    for (id, entry) in maps.iter() {
+        let known = textures.by_image.remove(id);
+        let texture = match known {
+            Some(known) if known.version == entry.version => known,
+            _ => texture(&entry.map, entry.version, &device, &queue),
+        };
+        kept.insert(*id, texture);
+    }
+    textures.by_image = kept;
+}
+
+fn texture(
+    map: &ReliefMap,
+    version: u32,
+    device: &RenderDevice,
+    queue: &RenderQueue,
+) -> ReliefTexture {
+    let [width, height] = map.size;
+    let texture = device.create_texture_with_data(
+        queue,
+        &TextureDescriptor {
+            label: Some("frusta_relief"),
+            size: Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: map.levels.len() as u32,
+            sample_count: 1,
+            dimension: TextureDimension::D2,
+            format: TextureFormat::R8Unorm,
+            usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
+            view_formats: &[],
+        },
+        TextureDataOrder::MipMajor,
+        &map.levels.concat(),
+    );
+    ReliefTexture {
+        version,
+        view: texture.create_view(&TextureViewDescriptor::default()),
+        size: map.size,
+        range: map.range,
+    }
+}

@@ -1,0 +1,143 @@
+//! What a game's author sets.
+
+use bevy::prelude::*;
+
+use crate::frusta::material::{FrustaMaterial, frusta_material};
+use crate::frusta::single::shell::{ShellShape, Thickness};
+
+/// Relief on a [`FrustaMaterial`]: bark, ribs and masonry that stand out on silhouettes, in shadows and in every
+/// prepass.
+///
+/// ```
+/// # use bevy::prelude::*;
+/// # use bevy_verdure::prelude::*;
+/// # fn bark(assets: Res<AssetServer>, mut materials: ResMut<Assets<FrustaMaterial>>) {
+/// let bark = materials.add(relief_material(
+///     StandardMaterial { base_color_texture: Some(assets.load("bark.png")), ..default() },
+///     Relief::new(assets.load("bark_height.png"), ReliefThickness::Metres(0.02)),
+/// ));
+/// # }
+/// ```
+#[derive(Clone, Debug, PartialEq, Reflect)]
+#[reflect(Clone, Debug, PartialEq)]
+pub struct Relief {
+    /// The relief map: heights from 0 (black, the inner frustum) to 1 (white, the outer), 8 bits a pixel, of any
+    /// aspect. It repeats in both directions, u once round the limb and v along it, transformed by the material's
+    /// `uv_transform` like all other maps.
+    ///
+    /// Grey images are taken as they are. Of colour images the red channel counts, and of 16-bit ones the upper byte,
+    /// with a warning. An image that cannot be loaded or used gives an error in the log, and the plant is drawn
+    /// without relief.
+    pub map: Handle<Image>,
+    /// How thick the shell is. Zero, negative or no number: no relief.
+    pub thickness: ReliefThickness,
+    /// The relief height, 0 to 1, that lies at the joints' radius: at 0 the relief stands on the surface that the plant
+    /// would have without it (as in the paper), at 1 it is carved into it. Clamped; no number counts as 0.
+    pub level: f32,
+    /// How many steps a ray takes through the shell. More find thinner features.
+    pub steps: ReliefSteps,
+    /// Halvings of the step in which a ray meets the relief, at most 16. Each halves the error of depth and texture
+    /// coordinates.
+    pub bisections: u32,
+    /// How v is found along a ray.
+    pub v: ReliefV,
+    /// How a ray is marched.
+    pub march: ReliefMarch,
+    /// Whether the relief shadows itself from the first directional light by a short march towards it, besides what
+    /// shadow maps do. For ridges finer than a pixel of the shadow map; in forward rendering only.
+    pub self_shadow: bool,
+}
+
+impl Relief {
+    /// Relief by a map, in a shell of some thickness, as the defaults march it.
+    pub fn new(map: Handle<Image>, thickness: ReliefThickness) -> Self {
+        Self {
+            map,
+            thickness,
+            level: 0.0,
+            steps: ReliefSteps::default(),
+            bisections: 4,
+            v: ReliefV::default(),
+            march: ReliefMarch::default(),
+            self_shadow: false,
+        }
+    }
+
+    /// The same with another height at the joints' radius.
+    pub fn with_level(mut self, level: f32) -> Self {
+        self.level = level;
+        self
+    }
+
+    /// The same with other steps.
+    pub fn with_steps(mut self, steps: ReliefSteps) -> Self {
+        self.steps = steps;
+        self
+    }
+
+    /// The shell, or `None` if it has no thickness.
+    pub fn shell(&self) -> Option<ShellShape> {
+        let shape = ShellShape {
+            thickness: match self.thickness {
+                ReliefThickness::Metres(h) => Thickness::Metres(h),
+                ReliefThickness::Relative(share) => Thickness::Relative(share),
+            },
+            level: self.level,
+        };
+        (shape.thickness.at(1.0) > 0.0).then_some(shape)
+    }
+}
+
+/// How thick the shell of a relief is at a joint. At most 8 radii of the joint, and below the joint's radius
+/// at most 0.95 of it: more is taken for that.
+#[derive(Clone, Copy, Debug, PartialEq, Reflect)]
+#[reflect(Clone, Debug, PartialEq)]
+pub enum ReliefThickness {
+    /// The same everywhere, in metres of the plant's local space.
+    Metres(f32),
+    /// This share of the joint's radius.
+    Relative(f32),
+}
+
+/// How many steps a ray takes through the shell before its hit is refined.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum ReliefSteps {
+    /// As many as the shell needs at its size on screen: about one for each pixel, of the screen or of the map,
+    /// whichever is larger, that the ray passes over.
+    #[default]
+    Auto,
+    /// So many, 1 to 1024.
+    Fixed(u32),
+}
+
+/// How v is found at a point of a ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum ReliefV {
+    /// By Equation 7, at every step.
+    #[default]
+    Exact,
+    /// By linear interpolation between where the ray enters and leaves the shell (§3). Exact where a segment's planes
+    /// are parallel; where they are not, relief swims as the eye moves, and segments that bend by more than 45° are
+    /// marched exactly all the same.
+    Interpolated,
+}
+
+/// How a ray is marched through the shell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum ReliefMarch {
+    /// In equal steps (§3).
+    #[default]
+    Uniform,
+    /// In steps as long as the map is known to hold no higher point.
+    Leaping,
+}
+
+/// A [`FrustaMaterial`] of a [`StandardMaterial`], or of what becomes one, with relief.
+pub fn relief_material(base: impl Into<StandardMaterial>, relief: Relief) -> FrustaMaterial {
+    let mut material = frusta_material(base);
+    material.extension.relief = Some(relief);
+    material
+}
