@@ -217,9 +217,20 @@ impl Studio {
 
     /// Plants a skeleton.
     pub fn plant(&mut self, skeleton: Skeleton, settings: Frusta, transform: Transform) -> Entity {
+        let material = frusta_material(Color::srgb(0.45, 0.4, 0.33));
+        self.plant_in(skeleton, settings, transform, material)
+    }
+
+    /// Plants a skeleton with a material of its own.
+    pub fn plant_in(
+        &mut self,
+        skeleton: Skeleton,
+        settings: Frusta,
+        transform: Transform,
+        material: FrustaMaterial,
+    ) -> Entity {
         let world = self.world();
         let skeleton = world.resource_mut::<Assets<Skeleton>>().add(skeleton);
-        let material = frusta_material(Color::srgb(0.45, 0.4, 0.33));
         let material = world.resource_mut::<Assets<FrustaMaterial>>().add(material);
         let plant = (
             Skeleton3d(skeleton),

@@ -1,0 +1,119 @@
+//! Depth, segment and texture coordinates, pixel by pixel.
+
+use bevy::prelude::*;
+use bevy_verdure::lab::reference::relief::{
+    HeightImage, ReliefOptions, ReliefScene, ShellThickness,
+};
+use bevy_verdure::lab::reference::{ReferenceEnds, ReferenceJoin, ReferenceSettings};
+use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
+use bevy_verdure::prelude::*;
+
+use super::{add_map, bumps, limb};
+use crate::skeletons::reference_joints;
+
+const SIZE: UVec2 = UVec2::new(160, 120);
+const THICKNESS: f32 = 0.08;
+
+/// What was found in one picture.
+#[derive(Default, Debug)]
+struct Tally {
+    hits: usize,
+    /// A wrong hit, miss or segment.
+    wrong: usize,
+    /// Depth off by more than a hundredth of the shell.
+    deep: usize,
+    worst: f64,
+    error: f64,
+}
+
+fn compare(studio: &mut Studio, scene: &ReliefScene, shot: &Shot) -> Tally {
+    let figures = studio.measure(shot);
+    let mut tally = Tally::default();
+    for y in 0..shot.size.y {
+        for x in 0..shot.size.x {
+            let (origin, direction) = shot.ray(x as f32 + 0.5, y as f32 + 0.5);
+            let expected = scene.cast(origin, direction, f64::from(NEAR));
+            let seen = figures.get(x, y);
+            tally.hits += usize::from(expected.is_some());
+            match (expected, seen) {
+                (Some(hit), Some(seen)) if hit.segment as u32 == seen.segment => {
+                    let off = (f64::from(seen.depth) - hit.t).abs() * direction.length();
+                    tally.worst = tally.worst.max(off);
+                    tally.error += off;
+                    tally.deep += usize::from(off > 0.01 * f64::from(THICKNESS));
+                }
+                (None, None) => {}
+                _ => tally.wrong += 1,
+            }
+        }
+    }
+    tally
+}
+
+fn agree(
+    skeleton: &Skeleton,
+    join: Join,
+    map: &HeightImage,
+    relief: impl Fn(Relief) -> Relief,
+) -> Tally {
+    let mut studio = Studio::default();
+    let handle = add_map(&mut studio, map);
+    let relief = relief(Relief::new(handle, ReliefThickness::Metres(THICKNESS)));
+    let settings = ReferenceSettings {
+        join: match join {
+            Join::Round => ReferenceJoin::Round,
+            _ => ReferenceJoin::Mitre,
+        },
+        ends: ReferenceEnds::Round,
+    };
+    let options = ReliefOptions {
+        continuous_u: true,
+        ..default()
+    };
+    let height = |u: f64, v: f64| map.sample(u, v);
+    let thickness = ShellThickness::Metres(f64::from(THICKNESS));
+    let joints = reference_joints(skeleton);
+    let scene = ReliefScene::with_options(&joints, settings, &height, thickness, &options);
+    studio.plant_in(
+        skeleton.clone(),
+        Frusta::default().with_join(join),
+        Transform::IDENTITY,
+        relief_material(Color::WHITE, relief),
+    );
+    let mut sum = Tally::default();
+    for (eye, lens) in [
+        (Vec3::new(3.0, 2.5, 6.0), Lens::Perspective(0.7)),
+        (Vec3::new(0.6, 1.5, 0.9), Lens::Perspective(1.2)),
+        (Vec3::new(1.0, 9.0, 1.0), Lens::Perspective(0.5)),
+        (Vec3::new(-4.0, 3.0, 4.0), Lens::Orthographic(5.0)),
+    ] {
+        let shot = Shot {
+            eye,
+            at: Vec3::Y * 1.8,
+            lens,
+            size: SIZE,
+        };
+        let tally = compare(&mut studio, &scene, &shot);
+        println!("{eye}: {tally:?}, mean {}", tally.error / tally.hits as f64);
+        sum.hits += tally.hits;
+        sum.wrong += tally.wrong;
+        sum.deep += tally.deep;
+        sum.worst = sum.worst.max(tally.worst);
+        sum.error += tally.error;
+    }
+    sum
+}
+
+#[test]
+fn relief_is_where_the_reference_marches_to() {
+    let finest = |relief: Relief| Relief {
+        bisections: 12,
+        ..relief.with_steps(ReliefSteps::Fixed(256))
+    };
+    for join in [Join::Mitre, Join::Round] {
+        for (taper, bend) in [(1.0, 0.0), (1.0, 0.5), (0.75, 0.5)] {
+            let tally = agree(&limb(taper, bend), join, &bumps(), finest);
+            println!("{join:?} {taper} {bend}: {tally:?}");
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Relief as it is drawn, against a march of 4,096 steps in double precision.
+
+mod agreement;
+
+use core::f32::consts::TAU;
+
+use bevy::asset::RenderAssetUsages;
+use bevy::prelude::*;
+use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
+use bevy_verdure::lab::Studio;
+use bevy_verdure::lab::reference::relief::HeightImage;
+use bevy_verdure::prelude::*;
+
+/// Pixels of the test's maps, along u and along v.
+const MAP: UVec2 = UVec2::new(48, 32);
+
+/// Bumps that no mip level of the pictures below blurs.
+fn bumps() -> HeightImage {
+    HeightImage::from_fn(MAP.x as usize, MAP.y as usize, |u, v| {
+        let (u, v) = (u as f32, v as f32);
+        f64::from(0.5 + 0.3 * (3.0 * TAU * u).sin() + 0.2 * (2.0 * TAU * v + TAU * u).cos())
+    })
+}
+
+/// The same map as an image of the crate's users.
+fn image(map: &HeightImage) -> Image {
+    let heights = (0..MAP.x * MAP.y).map(|i| {
+        let at = |n: u32, side: u32| (f64::from(n) + 0.5) / f64::from(side);
+        (map.sample(at(i % MAP.x, MAP.x), at(i / MAP.x, MAP.y)) * 255.0).round() as u8
+    });
+    Image::new(
+        Extent3d {
+            width: MAP.x,
+            height: MAP.y,
+            depth_or_array_layers: 1,
+        },
+        TextureDimension::D2,
+        heights.collect(),
+        TextureFormat::R8Unorm,
+        RenderAssetUsages::default(),
+    )
+}
+
+/// Adds a map to a studio.
+fn add_map(studio: &mut Studio, map: &HeightImage) -> Handle<Image> {
+    let image = image(map);
+    studio.world().resource_mut::<Assets<Image>>().add(image)
+}
+
+/// A limb of four segments that bends, with or without taper.
+fn limb(taper: f32, bend: f32) -> Skeleton {
+    let mut plant = Skeleton::builder();
+    let mut last = plant.root(Vec3::ZERO, 0.3);
+    plant.texture_length(last, 1.0);
+    let (mut at, mut angle, mut radius) = (Vec3::ZERO, 0.0f32, 0.3);
+    for i in 0..4 {
+        at += Vec3::new(angle.sin(), angle.cos(), 0.0);
+        radius *= taper;
+        last = plant.joint(last, at, radius);
+        angle += if i % 2 == 0 { bend } else { -0.6 * bend };
+    }
+    plant.build().expect("the limb is finite")
+}
