@@ -7,6 +7,7 @@ mod golden;
 mod lifecycle;
 mod live;
 mod polygons;
+mod rivals;
 mod skeleton_files;
 mod skeletons;
 mod twins;

@@ -1,6 +1,17 @@
-//! Figures of a run, as examples write them with `--stats`.
+//! Time: how long frames take, and the figures of a run as examples write them with `--stats`.
+//!
+//! | file | what it does |
+//! |---|---|
+//! | `race` | frames of several variants of a scene in turns |
+//! | `passes` | what the device says its passes took |
+
+mod passes;
+mod race;
 
 use std::path::Path;
+
+pub use passes::{gpu_passes, has_timestamps};
+pub use race::{Race, Timing, Variant};
 
 use serde::Serialize;
 
