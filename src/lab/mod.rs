@@ -4,9 +4,11 @@
 
 mod args;
 mod capture;
+pub mod charts;
 mod compare;
 mod exr_file;
 mod headless;
+pub mod limits;
 pub mod reference;
 mod studio;
 mod timing;
