@@ -104,7 +104,7 @@ impl Chart {
         canvas: &Canvas<DB>,
         mut y: f64,
     ) -> Result<f64, String> {
-        let mut x = MARGIN;
+        let (mut x, mut last) = (MARGIN, y);
         let mut advance = |name: &str| {
             let needed = SAMPLE + text_width(name);
             if x > MARGIN && x + needed > f64::from(SIZE.0) - MARGIN {
@@ -114,7 +114,6 @@ impl Chart {
             x += needed + GAP;
             at
         };
-        let mut last = y;
         for (i, series) in self.series.iter().enumerate() {
             let at = advance(&series.name);
             let mark = Mark::of(i);

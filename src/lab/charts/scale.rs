@@ -25,9 +25,11 @@ impl Span {
             low: f64::INFINITY,
             high: f64::NEG_INFINITY,
         };
-        for position in values.filter_map(|value| span.position(value)) {
-            span.low = span.low.min(position);
-            span.high = span.high.max(position);
+        for value in values {
+            if let Some(position) = span.position(value) {
+                span.low = span.low.min(position);
+                span.high = span.high.max(position);
+            }
         }
         if span.low > span.high {
             (span.low, span.high) = (0.0, 1.0);
@@ -40,7 +42,10 @@ impl Span {
             };
             (span.low, span.high) = (span.low - half, span.high + half);
         }
-        let step = step(span.high - span.low);
+        let mut step = step(span.high - span.low);
+        if span.scale == Scale::Log {
+            step = step.max(1.0);
+        }
         if span.scale == Scale::Linear || span.high - span.low > 2.0 {
             span.low = (span.low / step + 1e-9).floor() * step;
             span.high = (span.high / step - 1e-9).ceil() * step;
@@ -103,7 +108,7 @@ impl Span {
     /// What is written beside a tick.
     pub fn tick_label(&self, tick: f64) -> String {
         let size = tick.abs();
-        if size != 0.0 && !(1e-3..1e5).contains(&size) {
+        if size != 0.0 && !(1e-3..1e4).contains(&size) {
             return format!("{tick:.0e}");
         }
         // As many decimals as the tick has, once what binary fractions add is taken off.

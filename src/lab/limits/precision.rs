@@ -176,9 +176,12 @@ fn sweep() -> Vec<Precision> {
         .collect()
 }
 
-fn curves<const N: usize>(curves: [(&str, fn(&Precision) -> f64); N]) -> Vec<Series> {
+/// What a curve is called, and what it shows.
+type Curve = (&'static str, fn(&Precision) -> f64);
+
+fn curves<const N: usize>(curves: [Curve; N]) -> Vec<Series> {
     let rows = sweep();
-    let curve = |(name, value): (&str, fn(&Precision) -> f64)| {
+    let curve = |(name, value): Curve| {
         Series::line(name, rows.iter().map(|row| (row.distance, value(row))))
     };
     curves.map(curve).into()

@@ -50,7 +50,7 @@ pub fn chart() -> Chart {
                 return Point::from((bend, gap(bend, taper, ReferenceJoin::Mitre)));
             }
             let point = Point::from((bend, 0.0));
-            let label = format!("{taper}:1 round from here");
+            let label = format!("{taper}:1: round");
             if std::mem::take(&mut is_last) {
                 point.labelled(label)
             } else {
@@ -100,13 +100,13 @@ mod tests {
     }
 
     #[test]
-    fn the_papers_gap_grows_with_taper_and_bend_and_its_iteration_helps() {
-        for bend in [20.0, 40.0, 60.0, 80.0] {
+    fn the_papers_gap_grows_with_taper_and_its_iteration_closes_it() {
+        for bend in [20.0, 40.0, 60.0, 80.0, 100.0] {
             let paper = |taper| gap(bend, taper, ReferenceJoin::Paper);
             assert!(paper(1.0) < 1e-12 && paper(1.0) < paper(2.0) && paper(2.0) < paper(4.0));
             for taper in [2.0, 4.0] {
-                assert!(gap(bend - 10.0, taper, ReferenceJoin::Paper) < paper(taper));
-                assert!(gap(bend, taper, ReferenceJoin::PaperIterated) < 0.1 * paper(taper));
+                // It ends when the minor axes agree to 1e-9; the gap is that, times the radius, stretched by the slant.
+                assert!(gap(bend, taper, ReferenceJoin::PaperIterated) < 1e-8);
             }
         }
         assert_eq!(gap(170.0, 4.0, ReferenceJoin::Paper), f64::INFINITY);

@@ -25,8 +25,8 @@ pub const WIDTHS: [usize; 4] = [1, 2, 4, 8];
 pub const STEPS: [usize; 7] = [4, 8, 16, 32, 64, 128, 256];
 /// Rays of each width.
 const RAYS: usize = 1500;
-/// Thickness of the shell, in radii: about as much as a pixel is wide.
-const THICKNESS: f64 = 0.1;
+/// A shell about as thick as a pixel is wide, like bark, and one four times as thick, like fins; in radii.
+pub const THICKNESSES: [f64; 2] = [0.1, 0.4];
 /// An error of the depth that counts, in thicknesses of the shell.
 const WRONG: f64 = 0.01;
 /// Length of the limb, in radii.
@@ -59,7 +59,7 @@ pub(super) fn ray(random: &mut Random, length: f64, radius: f64) -> Ray {
 
 /// For each number of steps, the share of rays through the shell that end at a wrong depth, or whether they hit at all is
 /// wrong.
-pub fn wrong(width: usize) -> Vec<(usize, f64)> {
+pub fn wrong(width: usize, thickness: f64) -> Vec<(usize, f64)> {
     let image = ridges(width);
     let relief = |u: f64, v: f64| image.sample(u, v);
     let joints = limb(0.0, LENGTH, &[1.0; 2], Course::Arc);
@@ -67,7 +67,7 @@ pub fn wrong(width: usize) -> Vec<(usize, f64)> {
     let shell = shells(
         &joints,
         JoinKind::Mitre,
-        Thickness::Metres(THICKNESS),
+        Thickness::Metres(thickness),
         false,
     )[1];
     let reference_joints: Vec<ReferenceJoint> = for_reference(&joints);
@@ -75,13 +75,13 @@ pub fn wrong(width: usize) -> Vec<(usize, f64)> {
         &reference_joints,
         ReferenceSettings::default(),
         &relief,
-        ShellThickness::Metres(THICKNESS),
+        ShellThickness::Metres(thickness),
     );
     let mut random = Random::new(3);
     let mut counts = STEPS.map(|steps| (steps, 0));
     let mut rays = 0;
     while rays < RAYS {
-        let ray = ray(&mut random, LENGTH, 1.0 + THICKNESS);
+        let ray = ray(&mut random, LENGTH, 1.0 + thickness);
         let Some(stretch) = stretch(&shell, &ray, 0.0) else {
             continue;
         };
@@ -90,7 +90,7 @@ pub fn wrong(width: usize) -> Vec<(usize, f64)> {
         for (steps, count) in &mut counts {
             let found = march(&shell, &ray, stretch, *steps, &relief);
             let is_right = match (found, &wanted) {
-                (Some(t), Some(hit)) => (t - hit.t).abs() <= WRONG * THICKNESS,
+                (Some(t), Some(hit)) => (t - hit.t).abs() <= WRONG * thickness,
                 (found, wanted) => found.is_none() && wanted.is_none(),
             };
             *count += usize::from(!is_right);
@@ -103,18 +103,23 @@ pub fn wrong(width: usize) -> Vec<(usize, f64)> {
 
 /// The chart.
 pub fn chart() -> Chart {
-    let series = WIDTHS.map(|width| {
-        let points = wrong(width)
-            .into_iter()
-            .map(|(steps, share)| (steps as f64, share));
-        let plural = if width == 1 { "" } else { "s" };
-        Series::line(format!("{width} pixel{plural} wide"), points)
-    });
+    let mut series = Vec::new();
+    for thickness in THICKNESSES {
+        for width in WIDTHS {
+            let points = wrong(width, thickness)
+                .into_iter()
+                .map(|(steps, share)| (steps as f64, share));
+            series.push(Series::line(
+                format!("{width} px, shell {thickness}"),
+                points,
+            ));
+        }
+    }
     super::chart(
-        "Rays that miss a ridge, against steps through a shell as thick as a pixel",
+        "Rays that miss a ridge, by its width and the shell's thickness in radii",
         Axis::log("uniform steps"),
         Axis::log("share of wrong rays (1e-4 stands for none)").with_floor(1e-4),
-        series.into(),
+        series,
     )
 }
 
@@ -124,7 +129,7 @@ mod tests {
 
     #[test]
     fn more_steps_and_wider_ridges_are_missed_less() {
-        let shares = WIDTHS.map(wrong);
+        let shares = WIDTHS.map(|width| wrong(width, THICKNESSES[1]));
         // Two shares of the same rays that are p in truth differ by chance by up to four deviations of √(p/n).
         let chance = |p: f64| 4.0 * (p.max(1.0 / RAYS as f64) / RAYS as f64).sqrt();
         for rows in &shares {

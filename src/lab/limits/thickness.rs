@@ -99,7 +99,7 @@ pub fn chart() -> Chart {
             let point = Point::from((thickness, found.shared));
             let falls_back = std::mem::replace(&mut was_mitred, found.is_mitred);
             if falls_back && !found.is_mitred {
-                point.labelled("round from here")
+                point.labelled("round")
             } else {
                 point
             }
