@@ -4,10 +4,12 @@
 
 mod args;
 mod capture;
+pub mod charts;
 mod compare;
 mod error;
 mod exr_file;
 mod headless;
+pub mod limits;
 pub mod reference;
 pub mod rivals;
 mod studio;
