@@ -157,6 +157,19 @@ impl Exhibit {
         }
     }
 
+    /// Shows or hides the ground.
+    pub fn show_stage(&self, headless: &mut Headless, shown: bool) {
+        for entity in &self.stage {
+            if let Some(mut own) = headless.world().get_mut::<Visibility>(*entity) {
+                *own = if shown {
+                    Visibility::Inherited
+                } else {
+                    Visibility::Hidden
+                };
+            }
+        }
+    }
+
     /// Takes a rival down.
     pub fn take_down(&mut self, headless: &mut Headless, rival: Rival) {
         let (gone, kept) = core::mem::take(&mut self.shown_as)

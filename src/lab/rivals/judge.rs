@@ -7,8 +7,12 @@ use super::exhibit::{Exhibit, SKY};
 use super::{Rival, Weight};
 use crate::lab::capture::Pixels;
 use crate::lab::compare::mean_flip;
-use crate::lab::studio::{Shot, Studio};
+use crate::lab::studio::{Figures, Shot, Studio};
 use crate::lab::supersample::box_downsample;
+
+/// By how much mean FLIP may be above that of frusta where polygons count as good. The reference has the shading normals
+/// of frusta, which polygons do not come to at joints however fine they are.
+pub const AS_GOOD: f32 = 0.002;
 
 /// How many times as wide and as high the reference is taken.
 pub const SUPERSAMPLING: u32 = 4;
@@ -64,8 +68,19 @@ impl Judge {
         mean_flip(size, &self.reference, &picture.rgb_bytes())
     }
 
-    /// Subdivides polygons until their error is at most `target`: 0 to `most` times, in at most `limit` bytes. The ones
-    /// found stay up, all others are taken down.
+    /// What a rival of frusta measures: depth and segment of each pixel. Nothing but the plants is in the picture.
+    pub fn figures(&self, studio: &mut Studio, exhibit: &Exhibit, rival: Rival) -> Figures {
+        exhibit.show(&mut studio.headless, Some(rival));
+        exhibit.show_stage(&mut studio.headless, false);
+        set_msaa(studio, Msaa::Off);
+        let figures = studio.measure(&self.shot);
+        exhibit.show_stage(&mut studio.headless, true);
+        set_msaa(studio, Msaa::default());
+        figures
+    }
+
+    /// Subdivides polygons until their error is at most `target` and [`AS_GOOD`]: 0 to `most` times, in at most `limit`
+    /// bytes. The ones found stay up, all others are taken down. `None` if not even the coarsest fit.
     pub fn match_polygons(
         &self,
         studio: &mut Studio,
@@ -76,6 +91,7 @@ impl Judge {
         (most, limit): (u32, usize),
     ) -> Option<Match> {
         let mut best: Option<Match> = None;
+        let mut tried = Vec::new();
         for subdivisions in 0..=most {
             let rival = Rival::Polygons {
                 subdivisions,
@@ -87,14 +103,17 @@ impl Judge {
             if let Some(best) = &best {
                 exhibit.take_down(&mut studio.headless, best.rival);
             }
+            tried.push(flip);
+            let reached = flip <= target + AS_GOOD;
             best = Some(Match {
                 rival,
                 subdivisions,
                 flip,
                 weight,
-                reached: flip <= target,
+                reached,
+                tried: tried.clone(),
             });
-            if flip <= target {
+            if reached {
                 break;
             }
         }
@@ -103,7 +122,7 @@ impl Judge {
 }
 
 /// Polygons that are as good as frusta, or as good as they get.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Match {
     /// The polygons.
     pub rival: Rival,
@@ -115,6 +134,14 @@ pub struct Match {
     pub weight: Weight,
     /// Whether they are as good, or just the finest that were tried.
     pub reached: bool,
+    /// Mean FLIP of each subdivision that was tried, from 0 on.
+    pub tried: Vec<f32>,
+}
+
+/// Aims the camera, so that frames may be timed, with the anti-aliasing that Bevy's cameras have by default.
+pub fn aim(studio: &mut Studio, shot: &Shot) {
+    set_msaa(studio, Msaa::default());
+    studio.photograph(shot, SKY);
 }
 
 /// Sets the anti-aliasing of a studio's camera.

@@ -21,7 +21,7 @@ mod weight;
 
 pub use dress::{Dress, Wardrobe};
 pub use exhibit::{Exhibit, NotShown};
-pub use judge::{Judge, Match, SUPERSAMPLING};
+pub use judge::{AS_GOOD, Judge, Match, SUPERSAMPLING, aim};
 pub use view::fitting;
 pub use weight::Weight;
 

@@ -11,7 +11,7 @@ mod race;
 use std::path::Path;
 
 pub use passes::{gpu_passes, has_timestamps};
-pub use race::{Race, Timing, Variant};
+pub use race::{Clock, Race, Timing, Variant};
 
 use serde::Serialize;
 

@@ -3,6 +3,9 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
+use bevy::prelude::*;
+use bevy::render::renderer::RenderAdapterInfo;
+
 use super::super::headless::{Headless, wait_for_gpu};
 use super::{median, passes};
 
@@ -49,9 +52,43 @@ impl Timing {
         }
     }
 
-    /// The figure to compare: that of the device's passes where there is one, else that of the whole frame.
-    pub fn cost_ms(&self) -> f64 {
-        self.gpu_ms.unwrap_or(self.frame_ms)
+    /// By a clock; by that of frames where there is no other.
+    pub fn ms(&self, clock: Clock) -> f64 {
+        match (clock, self.gpu_ms) {
+            (Clock::Passes, Some(ms)) => ms,
+            _ => self.frame_ms,
+        }
+    }
+}
+
+/// What is timed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Clock {
+    /// The whole frame, with the CPU's share.
+    Frames,
+    /// The device's passes alone.
+    Passes,
+}
+
+impl Clock {
+    /// The one that tells most: passes, on a device that has timestamps and is not the CPU itself, where passes overlap.
+    pub fn of(world: &World) -> Self {
+        let info = world.get_resource::<RenderAdapterInfo>();
+        // Bevy does not name the type of this field.
+        let is_gpu = info.is_some_and(|info| format!("{:?}", info.device_type) != "Cpu");
+        if is_gpu && passes::has_timestamps(world) {
+            Self::Passes
+        } else {
+            Self::Frames
+        }
+    }
+
+    /// For axes and headings.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Frames => "frame time",
+            Self::Passes => "GPU time",
+        }
     }
 }
 
