@@ -9,8 +9,6 @@ use bevy_verdure::plants::{Planting, Saguaro};
 use super::lab::Lab;
 use super::plan::Plan;
 
-/// Milliseconds a frame beyond which nothing larger is tried.
-const PATIENCE: f64 = 1_500.0;
 /// Metres between two plants of a field.
 const SPACING: f32 = 3.0;
 
@@ -61,7 +59,7 @@ impl Lines {
             self.points[i].push((x, timing.ms(lab.clock)).into());
             println!("{x} {}: {:.2} ms", self.rivals[i].0, timing.ms(lab.clock));
         }
-        let fast = timings.iter().map(|timing| timing.frame_ms < PATIENCE);
+        let fast = timings.iter().map(|timing| timing.frame_ms < plan.patience);
         let mut fast: Vec<bool> = fast.collect();
         fast.reverse();
         self.running.retain(|_| fast.pop().unwrap_or(false));

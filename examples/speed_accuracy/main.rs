@@ -54,6 +54,9 @@ struct Args {
     /// Parts of the measurement, all if none is named.
     #[arg(long = "part", value_enum)]
     parts: Vec<Part>,
+    /// Writes the pictures that the table's errors are of, too.
+    #[arg(long)]
+    pictures: bool,
     /// Draws the paper's Figures 4 to 6 into this folder instead.
     #[arg(long, num_args = 0..=1, default_missing_value = "docs/figures", value_name = "DIR")]
     figures: Option<PathBuf>,
@@ -87,7 +90,7 @@ fn run(args: &Args) -> Result<(), String> {
     let mut lab = Lab::open();
     println!("{}", lab.adapter);
     if wants(Part::Table) {
-        let rows = table::measure(&mut lab, &plan)?;
+        let rows = table::measure(&mut lab, &plan, args.pictures.then_some(&*args.out))?;
         table_text::save(&lab, &rows, &args.out)?;
     }
     if wants(Part::Knobs) {

@@ -25,6 +25,8 @@ pub struct Plan {
     pub segments: &'static [usize],
     /// Sizes of pictures.
     pub sizes: &'static [(u32, u32)],
+    /// Milliseconds of a frame beyond which a rival gets no larger task.
+    pub patience: f64,
 }
 
 impl Plan {
@@ -53,6 +55,7 @@ impl Plan {
             bisections: &[0, 1, 2, 3, 4, 5, 6, 8, 10],
             segments: &[100, 1_000, 10_000, 100_000, 1_000_000],
             sizes: &[(256, 192), (512, 384), (1024, 768), (2048, 1536)],
+            patience: 1_500.0,
         }
     }
 
@@ -71,6 +74,7 @@ impl Plan {
             bisections: &[0, 4, 10],
             segments: &[100, 1_000, 10_000],
             sizes: &[(128, 96), (256, 192)],
+            patience: 250.0,
         }
     }
 }

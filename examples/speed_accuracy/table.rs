@@ -1,7 +1,9 @@
 //! The paper's Table 1 again.
 
+use std::path::Path;
+
 use bevy_verdure::lab::Timing;
-use bevy_verdure::lab::rivals::{Exhibit, Judge, Match, Rival, Weight};
+use bevy_verdure::lab::rivals::{Exhibit, Flips, Judge, Match, Rival, Weight};
 
 use super::lab::Lab;
 use super::plan::Plan;
@@ -31,14 +33,14 @@ pub struct Entry {
     pub timing: Timing,
 }
 
-/// Measures all scenes of the plan.
-pub fn measure(lab: &mut Lab, plan: &Plan) -> Result<Vec<Row>, String> {
+/// Measures all scenes of the plan. Pictures of what is compared are written to a folder, if one is given.
+pub fn measure(lab: &mut Lab, plan: &Plan, pictures: Option<&Path>) -> Result<Vec<Row>, String> {
     let mut rows = Vec::new();
     for scene in &plan.scenes {
-        let row = measure_scene(lab, plan, *scene)?;
+        let row = measure_scene(lab, plan, *scene, pictures)?;
         for pair in &row.pairs {
             println!(
-                "{}: frusta {:.2} ms, FLIP {:.4}; polygons at m = {}{} {:.2} ms, FLIP {:?}",
+                "{}: frusta {:.2} ms, FLIP {:.4}; polygons at m = {}{} {:.2} ms, FLIP{}",
                 scene.name(),
                 pair.frusta.timing.ms(lab.clock),
                 pair.frusta.flip,
@@ -49,7 +51,7 @@ pub fn measure(lab: &mut Lab, plan: &Plan) -> Result<Vec<Row>, String> {
                     " (not as good)"
                 },
                 pair.polygons.timing.ms(lab.clock),
-                pair.found.tried,
+                tried(pair),
             );
         }
         rows.push(row);
@@ -57,7 +59,19 @@ pub fn measure(lab: &mut Lab, plan: &Plan) -> Result<Vec<Row>, String> {
     Ok(rows)
 }
 
-fn measure_scene(lab: &mut Lab, plan: &Plan, scene: Scene) -> Result<Row, String> {
+/// The errors of each subdivision, against frusta and against the finest polygons.
+fn tried(pair: &Pair) -> String {
+    let own = |own: Option<f32>| own.map_or(String::new(), |own| format!("/{own:.4}"));
+    let one = |flips: &Flips| format!(" {:.4}{}", flips.to_frusta, own(flips.to_own_limit));
+    pair.found.tried.iter().map(one).collect()
+}
+
+fn measure_scene(
+    lab: &mut Lab,
+    plan: &Plan,
+    scene: Scene,
+    pictures: Option<&Path>,
+) -> Result<Row, String> {
     let planting = scene.grow();
     let segments = planting.segment_count();
     let shot = scene.shot(&planting, plan.size);
@@ -80,6 +94,13 @@ fn measure_scene(lab: &mut Lab, plan: &Plan, scene: Scene) -> Result<Row, String
             .ok_or_else(|| format!("{}: polygons take too much memory", scene.name()))?;
         if finest != frusta {
             exhibit.take_down(&mut lab.studio.headless, finest);
+        }
+        for (name, rival) in [("frusta", frusta), ("polygons", polygons.rival)] {
+            let Some(dir) = pictures else { break };
+            let relief = if relief { "_relief" } else { "" };
+            let file = dir.join(format!("{}_{name}{relief}.png", scene.name()));
+            let picture = judge.picture(&mut lab.studio, &exhibit, rival);
+            picture.save_png(&file)?;
         }
         found.push((frusta, flip, polygons));
     }

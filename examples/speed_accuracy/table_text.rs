@@ -25,9 +25,9 @@ fn markdown(lab: &Lab, rows: &[Row]) -> String {
     let mut text = format!(
         "# Table 1 of the frusta paper, again\n\n\
          {}, {}, in milliseconds above the empty scene's. RC: frusta, ray cast; GS: polygons by geometric subdivision, \
-         m times; +R: with relief. Polygons are subdivided until their mean FLIP is at most that of frusta and {AS_GOOD}; \
-         where that is not reached, the finest that were tried are listed, marked by >. KiB are those of what describes \
-         the shape.\n\n",
+         m times; +R: with relief. Polygons are subdivided until their mean FLIP, against the finest frusta or the finest \
+         polygons, whichever is nearer, is at most that of frusta and {AS_GOOD}; where that is not reached, the finest \
+         that were tried are listed, marked by >. KiB are those of what describes the shape.\n\n",
         lab.adapter,
         lab.clock.label(),
     );

@@ -59,7 +59,7 @@ impl Exhibit {
         let ground = Plane3d::default().mesh().size(400.0, 400.0);
         let ground = world.resource_mut::<Assets<Mesh>>().add(ground);
         let soil = StandardMaterial {
-            base_color: Color::srgb(0.80, 0.66, 0.46),
+            base_color: Color::srgb(0.52, 0.44, 0.33),
             perceptual_roughness: 1.0,
             reflectance: 0.1,
             ..default()

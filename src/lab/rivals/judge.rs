@@ -10,9 +10,9 @@ use crate::lab::compare::mean_flip;
 use crate::lab::studio::{Figures, Shot, Studio};
 use crate::lab::supersample::box_downsample;
 
-/// By how much mean FLIP may be above that of frusta where polygons count as good. The reference has the shading normals
-/// of frusta, which polygons do not come to at joints however fine they are.
-pub const AS_GOOD: f32 = 0.002;
+/// By how much mean FLIP may be above that of frusta where polygons count as good: what two pictures of one quality
+/// differ by.
+pub const AS_GOOD: f32 = 0.001;
 
 /// How many times as wide and as high the reference is taken.
 pub const SUPERSAMPLING: u32 = 4;
@@ -64,8 +64,7 @@ impl Judge {
     /// Mean FLIP of a rival that stands.
     pub fn flip(&self, studio: &mut Studio, exhibit: &Exhibit, rival: Rival) -> f32 {
         let picture = self.picture(studio, exhibit, rival);
-        let size = (self.shot.size.x, self.shot.size.y);
-        mean_flip(size, &self.reference, &picture.rgb_bytes())
+        self.flip_of(&picture.rgb_bytes())
     }
 
     /// What a rival of frusta measures: depth and segment of each pixel. Nothing but the plants is in the picture.
@@ -80,7 +79,12 @@ impl Judge {
     }
 
     /// Subdivides polygons until their error is at most `target` and [`AS_GOOD`]: 0 to `most` times, in at most `limit`
-    /// bytes. The ones found stay up, all others are taken down. `None` if not even the coarsest fit.
+    /// bytes. `None` if not even the coarsest fit. The ones found stay up, all others are taken down.
+    ///
+    /// Frusta and polygons shade alike only where a limb is straight: Equation 8 is continuous at joints, and on steep
+    /// cones it is not the surface's normal. So polygons are judged by two references, whichever is nearer: that of
+    /// frusta, and that of the finest polygons that may be had, which stands for their own limit. The finest
+    /// themselves are judged by frusta alone, for nothing tells how far from their limit they are.
     pub fn match_polygons(
         &self,
         studio: &mut Studio,
@@ -90,34 +94,67 @@ impl Judge {
         target: f32,
         (most, limit): (u32, usize),
     ) -> Option<Match> {
-        let mut best: Option<Match> = None;
+        let polygons = |subdivisions| Rival::Polygons {
+            subdivisions,
+            relief,
+        };
+        let mut put_up = |studio: &mut Studio, exhibit: &mut Exhibit, m| {
+            exhibit.put_up(&mut studio.headless, wardrobe, polygons(m), limit)
+        };
+        let finest = (0..=most).rfind(|&m| put_up(studio, exhibit, m).is_ok())?;
+        let own = Self::new(studio, exhibit, polygons(finest), self.shot);
         let mut tried = Vec::new();
-        for subdivisions in 0..=most {
-            let rival = Rival::Polygons {
-                subdivisions,
-                relief,
-            };
-            let put_up = exhibit.put_up(&mut studio.headless, wardrobe, rival, limit);
-            let Ok(weight) = put_up else { break };
-            let flip = self.flip(studio, exhibit, rival);
-            if let Some(best) = &best {
-                exhibit.take_down(&mut studio.headless, best.rival);
-            }
-            tried.push(flip);
-            let reached = flip <= target + AS_GOOD;
-            best = Some(Match {
-                rival,
-                subdivisions,
-                flip,
-                weight,
-                reached,
-                tried: tried.clone(),
-            });
-            if reached {
+        for subdivisions in 0..=finest {
+            let rival = polygons(subdivisions);
+            let Ok(weight) = put_up(studio, exhibit, subdivisions) else {
                 break;
+            };
+            let picture = self.picture(studio, exhibit, rival).rgb_bytes();
+            let is_finest = subdivisions == finest;
+            let flips = Flips {
+                to_frusta: self.flip_of(&picture),
+                to_own_limit: (!is_finest).then(|| own.flip_of(&picture)),
+            };
+            tried.push(flips);
+            let reached = flips.nearer() <= target + AS_GOOD;
+            if reached || is_finest {
+                if !is_finest {
+                    exhibit.take_down(&mut studio.headless, polygons(finest));
+                }
+                return Some(Match {
+                    rival,
+                    subdivisions,
+                    flip: flips.nearer(),
+                    weight,
+                    reached,
+                    tried,
+                });
             }
+            exhibit.take_down(&mut studio.headless, rival);
         }
-        best
+        None
+    }
+
+    fn flip_of(&self, picture: &[u8]) -> f32 {
+        let size = (self.shot.size.x, self.shot.size.y);
+        mean_flip(size, &self.reference, picture)
+    }
+}
+
+/// How wrong polygons look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flips {
+    /// Mean FLIP against the finest frusta.
+    pub to_frusta: f32,
+    /// Mean FLIP against the finest polygons that may be had; `None` for these.
+    pub to_own_limit: Option<f32>,
+}
+
+impl Flips {
+    /// The smaller of both.
+    pub fn nearer(&self) -> f32 {
+        self.to_own_limit
+            .map_or(self.to_frusta, |own| own.min(self.to_frusta))
     }
 }
 
@@ -128,14 +165,14 @@ pub struct Match {
     pub rival: Rival,
     /// m.
     pub subdivisions: u32,
-    /// Mean FLIP.
+    /// Mean FLIP, against the nearer of both references.
     pub flip: f32,
     /// What they weigh.
     pub weight: Weight,
     /// Whether they are as good, or just the finest that were tried.
     pub reached: bool,
-    /// Mean FLIP of each subdivision that was tried, from 0 on.
-    pub tried: Vec<f32>,
+    /// The errors of each subdivision that was tried, from 0 on.
+    pub tried: Vec<Flips>,
 }
 
 /// Aims the camera, so that frames may be timed, with the anti-aliasing that Bevy's cameras have by default.

@@ -9,9 +9,9 @@
 //! | `view` | an eye that a planting fills the picture of |
 //! | `judge` | mean FLIP against a supersampled reference, and the subdivision that is as good |
 //!
-//! The reference is what frusta draw with their finest settings ([`March::FINEST`] where there is relief), so it holds
-//! what both rivals approach: polygons by subdivision, and the march by its steps. It shares the shading normals of
-//! frusta (Equation 8), which polygons' own converge to but at joints.
+//! The reference is what frusta draw with their finest settings, [`March::FINEST`] where there is relief. It has their
+//! shading normals (Equation 8), which polygons do not come to; so these are judged by the limit of their own as well
+//! ([`Judge::match_polygons`]).
 
 mod dress;
 mod exhibit;
@@ -21,7 +21,7 @@ mod weight;
 
 pub use dress::{Dress, Wardrobe};
 pub use exhibit::{Exhibit, NotShown};
-pub use judge::{AS_GOOD, Judge, Match, SUPERSAMPLING, aim};
+pub use judge::{AS_GOOD, Flips, Judge, Match, SUPERSAMPLING, aim};
 pub use view::fitting;
 pub use weight::Weight;
 
