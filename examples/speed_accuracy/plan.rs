@@ -68,7 +68,7 @@ impl Plan {
                 warm_up: 1,
                 ..Race::default()
             },
-            subdivisions: 2,
+            subdivisions: 3,
             limit: 64 << 20,
             steps: &[4, 16, 64],
             bisections: &[0, 4, 10],
