@@ -2,8 +2,8 @@
 
 use plotters::style::RGBColor;
 
-/// The colours of M. Okabe and K. Ito, *Color Universal Design* (2008), which people with any kind of colour vision tell
-/// apart; but for their yellow, too pale for lines on white.
+/// The colours of M. Okabe and K. Ito, *Color Universal Design* (2008), which people with any kind of colour vision
+/// tell apart; but for their yellow, too pale for lines on white.
 const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),

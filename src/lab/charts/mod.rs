@@ -1,7 +1,8 @@
 //! Charts: figures as a picture, twice, and as a table.
 //!
 //! A chart is plain data. [`Chart::save`] writes it as SVG and PNG, drawn by the same code, and as CSV with every point
-//! of it, also those that a picture has no room for: infinite ones, ones without a value, and zeros on a logarithmic axis.
+//! of it, also those that a picture has no room for: infinite ones, ones without a value, and zeros on a logarithmic
+//! axis.
 //!
 //! | file | what it does |
 //! |---|---|

@@ -156,22 +156,26 @@ impl Chart {
         canvas.text(&self.x.label, (right, below), Anchor::Right, PALE_INK)
     }
 
-    /// Writes labels beside their points: those of the default first, each on the first side where it hides nothing.
+    /// Writes labels beside their points, in the colour of their series: those of the default first, each on the first
+    /// side where it hides nothing.
     fn draw_labels<DB: DrawingBackend>(
         &self,
         canvas: &Canvas<DB>,
         plot: &Plot,
     ) -> Result<(), String> {
-        let all = || self.series.iter().flat_map(|series| &series.points);
+        let all = || {
+            let series = self.series.iter().enumerate();
+            series.flat_map(|(i, series)| series.points.iter().map(move |point| (i, point)))
+        };
         let mut taken: Vec<Box4> = all()
-            .filter_map(|point| {
+            .filter_map(|(_, point)| {
                 let (x, y) = plot.of(point)?;
                 let half = if point.marked { RING } else { DOT };
                 Some([x - half, y - half, x + half, y + half])
             })
             .collect();
-        let marked = all().filter(|point| point.marked);
-        for point in marked.chain(all().filter(|point| !point.marked)) {
+        let marked = all().filter(|(_, point)| point.marked);
+        for (i, point) in marked.chain(all().filter(|(_, point)| !point.marked)) {
             let (Some(label), Some((x, y))) = (&point.label, plot.of(point)) else {
                 continue;
             };
@@ -198,7 +202,7 @@ impl Chart {
             if let Some(place) = free {
                 taken.push(place);
                 let at = (place[0], 0.5 * (place[1] + place[3]));
-                canvas.text(label, at, Anchor::Left, INK)?;
+                canvas.text(label, at, Anchor::Left, Mark::of(i).colour)?;
             }
         }
         Ok(())

@@ -15,8 +15,8 @@ pub const TAPERS: [f64; 3] = [1.0, 2.0, 4.0];
 /// A gap too small for any rounding: where no gap at all is drawn.
 const NOTHING: f64 = 1e-18;
 
-/// The gap at the middle joint of two segments that thin by `taper` each, bent by `bend` degrees, in radii of the joint;
-/// infinite where the plane no longer cuts both cones in an ellipse. The mitre is taken without its limit.
+/// The gap at the middle joint of two segments that thin by `taper` each, bent by `bend` degrees, in radii of the
+/// joint; infinite where the plane no longer cuts both cones in an ellipse. The mitre is taken without its limit.
 pub fn gap(bend: f64, taper: f64, join: ReferenceJoin) -> f64 {
     let (sin, cos) = bend.to_radians().sin_cos();
     let axes = [DVec3::X, DVec3::new(cos, sin, 0.0)];

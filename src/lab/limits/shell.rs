@@ -1,5 +1,5 @@
-//! A march through the shell of one segment as §3 has it: from where the ray comes in to the inner frustum, or out again,
-//! in uniform steps, then bisection.
+//! A march through the shell of one segment as §3 has it: from where the ray comes in to the inner frustum, or out
+//! again, in uniform steps, then bisection.
 
 use glam::DVec3;
 

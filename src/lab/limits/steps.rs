@@ -1,7 +1,7 @@
 //! Ridges that a march of too few steps misses.
 //!
-//! A limb with four ridges along it, as many pixels wide, in a map 64 pixels round. What a march in uniform steps through
-//! the shell finds is held against the reference, which takes 4096 through the whole limb.
+//! A limb with four ridges along it, as many pixels wide, in a map 64 pixels round. What a march in uniform steps
+//! through the shell finds is held against the reference, which takes 4096 through the whole limb.
 
 use glam::DVec3;
 
@@ -57,8 +57,8 @@ pub(super) fn ray(random: &mut Random, length: f64, radius: f64) -> Ray {
     }
 }
 
-/// For each number of steps, the share of rays through the shell that end at a wrong depth, or whether they hit at all is
-/// wrong.
+/// For each number of steps, the share of rays through the shell that end at a wrong depth, or whether they hit at all
+/// is wrong.
 pub fn wrong(width: usize, thickness: f64) -> Vec<(usize, f64)> {
     let image = ridges(width);
     let relief = |u: f64, v: f64| image.sample(u, v);

@@ -1,7 +1,7 @@
 //! A shell thicker than the bend has room for.
 //!
-//! On the inside of a bend both cutting planes of a segment near each other. Where they cross inside the outer frustum the
-//! mitre falls back to round, for all heights; then neighbours' shells overlap there, and points have two owners.
+//! On the inside of a bend both cutting planes of a segment near each other. Where they cross inside the outer frustum
+//! the mitre falls back to round, for all heights; then neighbours' shells overlap there, and points have two owners.
 
 use glam::DVec3;
 
