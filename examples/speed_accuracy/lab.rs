@@ -1,9 +1,8 @@
 //! The app that everything is measured in.
 
 use bevy::prelude::*;
-use bevy::render::diagnostic::RenderDiagnosticsPlugin;
 use bevy_verdure::lab::rivals::{Exhibit, Rival, Wardrobe, aim};
-use bevy_verdure::lab::{Clock, Race, Shot, Studio, Timing, Variant, adapter_name};
+use bevy_verdure::lab::{Clock, GpuClockPlugin, Race, Shot, Studio, Timing, Variant, adapter_name};
 
 /// The app, its device, and the looks that are painted so far.
 pub struct Lab {
@@ -18,7 +17,7 @@ pub struct Lab {
 impl Lab {
     pub fn open() -> Self {
         let mut studio = Studio::new(|app| {
-            app.add_plugins(RenderDiagnosticsPlugin);
+            app.add_plugins(GpuClockPlugin);
         });
         let world = studio.world();
         Self {

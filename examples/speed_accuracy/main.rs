@@ -89,10 +89,6 @@ fn run(args: &Args) -> Result<(), String> {
     make(&args.out)?;
     let mut lab = Lab::open();
     println!("{}", lab.adapter);
-    if wants(Part::Table) {
-        let rows = table::measure(&mut lab, &plan, args.pictures.then_some(&*args.out))?;
-        table_text::save(&lab, &rows, &args.out)?;
-    }
     if wants(Part::Knobs) {
         knobs::measure(&mut lab, &plan)?.save(&args.out)?;
     }
@@ -103,6 +99,16 @@ fn run(args: &Args) -> Result<(), String> {
     if wants(Part::Pixels) {
         let chart = growth::against_pixels(&mut lab, &plan)?;
         chart.save(&args.out, "pixels")?;
+    }
+    if wants(Part::Table) {
+        let mut rows = Vec::new();
+        for scene in &plan.scenes {
+            let pictures = args.pictures.then_some(&*args.out);
+            rows.push(table::measure(&mut lab, &plan, *scene, pictures)?);
+            // After each scene, for the larger ones take their time.
+            rows.sort_by_key(|row| Scene::ALL.iter().position(|scene| *scene == row.scene));
+            table_text::save(&lab, &plan, &rows, &args.out)?;
+        }
     }
     println!("{}", args.out.display());
     Ok(())

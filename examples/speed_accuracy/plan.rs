@@ -68,13 +68,13 @@ impl Plan {
                 warm_up: 1,
                 ..Race::default()
             },
-            subdivisions: 3,
+            subdivisions: 2,
             limit: 64 << 20,
             steps: &[4, 16, 64],
             bisections: &[0, 4, 10],
             segments: &[100, 1_000, 10_000],
             sizes: &[(128, 96), (256, 192)],
-            patience: 250.0,
+            patience: 150.0,
         }
     }
 }

@@ -33,30 +33,31 @@ pub struct Entry {
     pub timing: Timing,
 }
 
-/// Measures all scenes of the plan. Pictures of what is compared are written to a folder, if one is given.
-pub fn measure(lab: &mut Lab, plan: &Plan, pictures: Option<&Path>) -> Result<Vec<Row>, String> {
-    let mut rows = Vec::new();
-    for scene in &plan.scenes {
-        let row = measure_scene(lab, plan, *scene, pictures)?;
-        for pair in &row.pairs {
-            println!(
-                "{}: frusta {:.2} ms, FLIP {:.4}; polygons at m = {}{} {:.2} ms, FLIP{}",
-                scene.name(),
-                pair.frusta.timing.ms(lab.clock),
-                pair.frusta.flip,
-                pair.found.subdivisions,
-                if pair.found.reached {
-                    ""
-                } else {
-                    " (not as good)"
-                },
-                pair.polygons.timing.ms(lab.clock),
-                tried(pair),
-            );
-        }
-        rows.push(row);
+/// Measures a scene, and tells of it. Pictures of what is compared are written to a folder, if one is given.
+pub fn measure(
+    lab: &mut Lab,
+    plan: &Plan,
+    scene: Scene,
+    pictures: Option<&Path>,
+) -> Result<Row, String> {
+    let row = measure_scene(lab, plan, scene, pictures)?;
+    for pair in &row.pairs {
+        println!(
+            "{}: frusta {:.2} ms, FLIP {:.4}; polygons at m = {}{} {:.2} ms, FLIP{}",
+            scene.name(),
+            pair.frusta.timing.ms(lab.clock),
+            pair.frusta.flip,
+            pair.found.subdivisions,
+            if pair.found.reached {
+                ""
+            } else {
+                " (not as good)"
+            },
+            pair.polygons.timing.ms(lab.clock),
+            tried(pair),
+        );
     }
-    Ok(rows)
+    Ok(row)
 }
 
 /// The errors of each subdivision, against frusta and against the finest polygons.

@@ -7,10 +7,11 @@ use bevy_verdure::lab::charts::{Axis, Chart, Point, Series};
 use bevy_verdure::lab::rivals::AS_GOOD;
 
 use super::lab::Lab;
+use super::plan::Plan;
 use super::table::{Entry, Pair, Row};
 
 /// Writes `table1.md`, `table1.csv`, and the chart `table1` of the times.
-pub fn save(lab: &Lab, rows: &[Row], dir: &Path) -> Result<(), String> {
+pub fn save(lab: &Lab, plan: &Plan, rows: &[Row], dir: &Path) -> Result<(), String> {
     // The chart writes a CSV of its own points under this name, so that the full table comes after it.
     chart(lab, rows).save(dir, "table1")?;
     let write = |name: &str, text: String| {
@@ -18,18 +19,21 @@ pub fn save(lab: &Lab, rows: &[Row], dir: &Path) -> Result<(), String> {
         std::fs::write(&path, text).map_err(|error| format!("{}: {error}", path.display()))
     };
     write("table1.csv", csv(lab, rows))?;
-    write("table1.md", markdown(lab, rows))
+    write("table1.md", markdown(lab, plan, rows))
 }
 
-fn markdown(lab: &Lab, rows: &[Row]) -> String {
+fn markdown(lab: &Lab, plan: &Plan, rows: &[Row]) -> String {
     let mut text = format!(
         "# Table 1 of the frusta paper, again\n\n\
-         {}, {}, in milliseconds above the empty scene's. RC: frusta, ray cast; GS: polygons by geometric subdivision, \
+         {}, {} x {}; {} in milliseconds above the empty scene's, medians of {} frames. RC: frusta, ray cast; GS: polygons by geometric subdivision, \
          m times; +R: with relief. Polygons are subdivided until their mean FLIP, against the finest frusta or the finest \
          polygons, whichever is nearer, is at most that of frusta and {AS_GOOD}; where that is not reached, the finest \
          that were tried are listed, marked by >. KiB are those of what describes the shape.\n\n",
         lab.adapter,
+        plan.size.x,
+        plan.size.y,
         lab.clock.label(),
+        plan.race.rounds,
     );
     text += "| scene | segments | RC | GS / m | GS : RC | RC+R | GS+R / m | GS+R : RC+R | KiB RC | GS | RC+R | GS+R | \
              FLIP RC | GS | RC+R | GS+R |\n";

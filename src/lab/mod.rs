@@ -26,4 +26,6 @@ pub use headless::{Headless, adapter_name, wait_for_gpu};
 pub use studio::{Figures, Lens, NEAR, SeenPixel, Shot, Studio};
 pub use supersample::box_downsample;
 pub use texture::{painted, texture};
-pub use timing::{Clock, FrameStats, Race, Timing, Variant, gpu_passes, has_timestamps, median};
+pub use timing::{
+    Clock, FrameStats, GpuClockPlugin, Race, Timing, Variant, gpu_frame, has_timestamps, median,
+};

@@ -1,12 +1,11 @@
 //! The core of `examples/speed_accuracy`, at a size that takes seconds: the shape of its conclusions, and no times.
 
 use bevy::prelude::*;
-use bevy::render::diagnostic::RenderDiagnosticsPlugin;
 use bevy_verdure::frusta::ReliefSteps;
 use bevy_verdure::lab::rivals::{
     AS_GOOD, Exhibit, Judge, March, Rival, SUPERSAMPLING, Wardrobe, Weight, aim, fitting,
 };
-use bevy_verdure::lab::{GeometryError, Race, Shot, Studio, Variant};
+use bevy_verdure::lab::{GeometryError, GpuClockPlugin, Race, Shot, Studio, Variant};
 use bevy_verdure::plants::{Planting, Saguaro};
 
 /// A saguaro, before an eye that it fills the picture of.
@@ -20,7 +19,7 @@ struct Stand {
 impl Stand {
     fn new() -> Self {
         let mut studio = Studio::new(|app| {
-            app.add_plugins(RenderDiagnosticsPlugin);
+            app.add_plugins(GpuClockPlugin);
         });
         let mut planting = Planting::default();
         let saguaro = planting.add(Saguaro::default().grow(1));

@@ -3,14 +3,14 @@
 //! | file | what it does |
 //! |---|---|
 //! | `race` | frames of several variants of a scene in turns |
-//! | `passes` | what the device says its passes took |
+//! | `device` | what the device says that a frame took |
 
-mod passes;
+mod device;
 mod race;
 
 use std::path::Path;
 
-pub use passes::{gpu_passes, has_timestamps};
+pub use device::{GpuClockPlugin, gpu_frame, has_timestamps};
 pub use race::{Clock, Race, Timing, Variant};
 
 use serde::Serialize;

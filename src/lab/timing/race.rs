@@ -7,7 +7,7 @@ use bevy::prelude::*;
 use bevy::render::renderer::RenderAdapterInfo;
 
 use super::super::headless::{Headless, wait_for_gpu};
-use super::{median, passes};
+use super::{device, median};
 
 /// One of the things that are compared.
 pub struct Variant<'a> {
@@ -34,7 +34,8 @@ pub struct Timing {
     pub name: String,
     /// Median time of a frame, from its first system to the device's last pass, in milliseconds.
     pub frame_ms: f64,
-    /// Median time of the device's passes, in milliseconds; `None` where it has no timestamps.
+    /// Median time that the device was at work on a frame, in milliseconds; `None` where it has no timestamps or no
+    /// [`GpuClockPlugin`](super::GpuClockPlugin).
     pub gpu_ms: Option<f64>,
     /// Frames that the medians are of.
     pub frames: usize,
@@ -55,7 +56,7 @@ impl Timing {
     /// By a clock; by that of frames where there is no other.
     pub fn ms(&self, clock: Clock) -> f64 {
         match (clock, self.gpu_ms) {
-            (Clock::Passes, Some(ms)) => ms,
+            (Clock::Device, Some(ms)) => ms,
             _ => self.frame_ms,
         }
     }
@@ -66,18 +67,18 @@ impl Timing {
 pub enum Clock {
     /// The whole frame, with the CPU's share.
     Frames,
-    /// The device's passes alone.
-    Passes,
+    /// The device's work alone.
+    Device,
 }
 
 impl Clock {
-    /// The one that tells most: passes, on a device that has timestamps and is not the CPU itself, where passes overlap.
+    /// The one that tells most: the device's, where it has timestamps and is not the CPU itself.
     pub fn of(world: &World) -> Self {
         let info = world.get_resource::<RenderAdapterInfo>();
         // Bevy does not name the type of this field.
         let is_gpu = info.is_some_and(|info| format!("{:?}", info.device_type) != "Cpu");
-        if is_gpu && passes::has_timestamps(world) {
-            Self::Passes
+        if is_gpu && device::has_timestamps(world) {
+            Self::Device
         } else {
             Self::Frames
         }
@@ -87,7 +88,7 @@ impl Clock {
     pub fn label(self) -> &'static str {
         match self {
             Self::Frames => "frame time",
-            Self::Passes => "GPU time",
+            Self::Device => "GPU time",
         }
     }
 }
@@ -141,10 +142,7 @@ impl Race {
             let took = started.elapsed().as_secs_f64() * 1e3;
             counted.push_back(counts_for);
             if let Some(variant) = counted.pop_front().flatten() {
-                let passes = passes::gpu_passes(headless.world(), started);
-                if !passes.is_empty() {
-                    gpu_ms[variant].push(passes.iter().map(|(_, ms)| ms).sum());
-                }
+                gpu_ms[variant].extend(device::gpu_frame(headless.world(), started));
             }
             took
         };
