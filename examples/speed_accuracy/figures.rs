@@ -7,15 +7,11 @@ use bevy_verdure::lab::rivals::{Exhibit, Judge, Rival, fitting};
 use bevy_verdure::lab::{Lens, Pixels, Shot, Studio, mean_flip};
 use bevy_verdure::plants::{Planting, Saguaro};
 use bevy_verdure::prelude::*;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder, RgbImage, imageops};
 
 use super::lab::Lab;
 
 /// Size of one picture.
 const SIZE: UVec2 = UVec2::new(320, 240);
-/// Empty pixels between two pictures.
-const GAP: u32 = 4;
 
 /// Draws all figures, and a page that shows them.
 pub fn draw(dir: &Path) -> Result<(), String> {
@@ -26,12 +22,23 @@ pub fn draw(dir: &Path) -> Result<(), String> {
          finest settings, four times as wide and high and averaged down.\n",
         lab.adapter
     );
-    let normals = normals(&mut Studio::default());
-    save(&dir.join("figure4.png"), &normals, 2)?;
-    page += "\n## Figure 4: normals\n\n\
-             ![a glossy limb, creased at every joint, and smooth](figure4.png)\n\n\
-             Left the surface's own normals (`ShadingNormals::Geometric`), right those of Equation 8 \
-             (`ShadingNormals::Continuous`, the default).\n";
+    let [geometric, continuous] = normals(&mut Studio::default());
+    page += "\n## Figure 4: normals\n\n";
+    page += &row(
+        dir,
+        &[
+            (
+                "figure4_geometric",
+                &geometric,
+                "the surface's own, `ShadingNormals::Geometric`".into(),
+            ),
+            (
+                "figure4_continuous",
+                &continuous,
+                "Equation 8, `ShadingNormals::Continuous`".into(),
+            ),
+        ],
+    )?;
     page += &reliefs(&mut lab, dir)?;
     let file = dir.join("README.md");
     std::fs::write(&file, page).map_err(|error| format!("{}: {error}", file.display()))?;
@@ -39,8 +46,20 @@ pub fn draw(dir: &Path) -> Result<(), String> {
     Ok(())
 }
 
+/// Writes pictures, and a table that shows them with a caption under each.
+fn row(dir: &Path, pictures: &[(&str, &Pixels, String)]) -> Result<String, String> {
+    let mut cells = [String::from("|"), String::from("|"), String::from("|")];
+    for (name, picture, caption) in pictures {
+        picture.save_png(&dir.join(format!("{name}.png")))?;
+        cells[0] += &format!(" ![{caption}]({name}.png) |");
+        cells[1] += ":-:|";
+        cells[2] += &format!(" {caption} |");
+    }
+    Ok(cells.join("\n") + "\n")
+}
+
 /// Figure 4: a bent, glossy limb with either normals.
-fn normals(studio: &mut Studio) -> Vec<Pixels> {
+fn normals(studio: &mut Studio) -> [Pixels; 2] {
     let mut limb = Skeleton::builder();
     let mut last = limb.root(Vec3::new(-0.75, -0.35, 0.0), 0.24);
     for i in 1..=7u8 {
@@ -76,27 +95,25 @@ fn normals(studio: &mut Studio) -> Vec<Pixels> {
         lens: Lens::Perspective(0.75),
         size: SIZE,
     };
-    [ShadingNormals::Geometric, ShadingNormals::Continuous]
-        .map(|normals| {
-            let mut material = frusta_material(StandardMaterial {
-                base_color: Color::srgb(0.25, 0.45, 0.30),
-                perceptual_roughness: 0.28,
-                ..default()
-            });
-            material.extension.normals = normals;
-            let world = studio.world();
-            let material = world.resource_mut::<Assets<FrustaMaterial>>().add(material);
-            world.entity_mut(plant).insert(MeshMaterial3d(material));
-            studio.headless.step();
-            studio.photograph(&shot, Color::srgb(0.9, 0.92, 0.95))
-        })
-        .into()
+    [ShadingNormals::Geometric, ShadingNormals::Continuous].map(|normals| {
+        let mut material = frusta_material(StandardMaterial {
+            base_color: Color::srgb(0.25, 0.45, 0.30),
+            perceptual_roughness: 0.28,
+            ..default()
+        });
+        material.extension.normals = normals;
+        let world = studio.world();
+        let material = world.resource_mut::<Assets<FrustaMaterial>>().add(material);
+        world.entity_mut(plant).insert(MeshMaterial3d(material));
+        studio.headless.step();
+        studio.photograph(&shot, Color::srgb(0.9, 0.92, 0.95))
+    })
 }
 
-/// Figures 5 and 6: four saguaros of 64 segments, which have 16·64·4^m triangles.
+/// Figures 5 and 6: three saguaros of 48 segments, which have 16·48·4^m triangles, and their caps.
 fn reliefs(lab: &mut Lab, dir: &Path) -> Result<String, String> {
     let mut planting = Planting::default();
-    for (i, (x, z)) in [(0.0, 0.0), (-1.5, -1.4), (1.7, -0.9), (0.4, -2.9)]
+    for (i, (x, z)) in [(0.0, 0.0), (-1.5, -1.4), (1.7, -0.9)]
         .into_iter()
         .enumerate()
     {
@@ -133,61 +150,50 @@ fn reliefs(lab: &mut Lab, dir: &Path) -> Result<String, String> {
         take(lab, &judge, &exhibit, plain),
         take(lab, &judge, &exhibit, relief),
     );
-    save(&dir.join("figure5.png"), &[without.0, with.0], 2)?;
-    let mut page = format!(
-        "\n## Figure 5: texture and relief\n\n\
-         ![four saguaros, smooth, and with ribs](figure5.png)\n\n\
-         | texture | relief |\n|--:|--:|\n| {:.4} | {:.4} |\n",
-        without.1, with.1
-    );
+    let mut page = String::from("\n## Figure 5: texture and relief\n\n");
+    page += &row(
+        dir,
+        &[
+            (
+                "figure5_texture",
+                &without.0,
+                format!("texture: FLIP {:.4}", without.1),
+            ),
+            (
+                "figure5_relief",
+                &with.0,
+                format!("relief: FLIP {:.4}", with.1),
+            ),
+        ],
+    )?;
 
     let judge = Judge::new(&mut lab.studio, &exhibit, finest, close);
-    let (mut pictures, mut heads, mut errors) = (Vec::new(), Vec::new(), Vec::new());
-    for subdivisions in [2, 3, 4] {
+    let mut drawn = Vec::new();
+    for (name, subdivisions) in [("figure6_16k", 2), ("figure6_64k", 3), ("figure6_256k", 4)] {
         let polygons = Rival::Polygons {
             subdivisions,
             relief: true,
         };
         lab.put_up(&mut exhibit, &[polygons])?;
         let (picture, flip) = take(lab, &judge, &exhibit, polygons);
-        pictures.push(picture);
         let triangles = exhibit.weight(polygons).unwrap_or_default().triangles;
-        heads.push(format!("{} thousand triangles", triangles.div_ceil(1000)));
-        errors.push(format!("{flip:.4}"));
+        let caption = format!("{} thousand triangles: FLIP {flip:.4}", triangles / 1000);
+        drawn.push((name, picture, caption));
         exhibit.take_down(&mut lab.studio.headless, polygons);
     }
     let (picture, flip) = take(lab, &judge, &exhibit, relief);
-    pictures.push(picture);
-    heads.push("ray cast".into());
-    errors.push(format!("{flip:.4}"));
-    save(&dir.join("figure6.png"), &pictures, 2)?;
-    page += &format!(
-        "\n## Figure 6: a close-up in ever more polygons, and ray cast\n\n\
-         ![a saguaro's ribs four times](figure6.png)\n\n\
-         From left to right and from top to bottom:\n\n| {} |\n|--:|--:|--:|--:|\n| {} |\n",
-        heads.join(" | "),
-        errors.join(" | ")
-    );
-    Ok(page)
-}
-
-/// Writes pictures side by side, so many a row.
-fn save(path: &Path, pictures: &[Pixels], columns: u32) -> Result<(), String> {
-    let rows = (pictures.len() as u32).div_ceil(columns);
-    let step = SIZE + GAP;
-    let (width, height) = (step.x * columns - GAP, step.y * rows - GAP);
-    let mut sheet = RgbImage::from_pixel(width, height, image::Rgb([255; 3]));
-    for (i, picture) in (0..).zip(pictures) {
-        let one = RgbImage::from_raw(SIZE.x, SIZE.y, picture.rgb_bytes())
-            .ok_or("a picture of another size came back")?;
-        let (x, y) = (i % columns * step.x, i / columns * step.y);
-        imageops::replace(&mut sheet, &one, x.into(), y.into());
+    drawn.push((
+        "figure6_ray_cast",
+        picture,
+        format!("ray cast: FLIP {flip:.4}"),
+    ));
+    page += "\n## Figure 6: a close-up in ever more polygons, and ray cast\n";
+    for two in drawn.chunks(2) {
+        let two: Vec<_> = (two.iter())
+            .map(|(name, picture, caption)| (*name, picture, caption.clone()))
+            .collect();
+        page += "\n";
+        page += &row(dir, &two)?;
     }
-    let write =
-        || {
-            let file = std::io::BufWriter::new(std::fs::File::create(path)?);
-            PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::Adaptive)
-                .write_image(&sheet, width, height, ExtendedColorType::Rgb8)
-        };
-    write().map_err(|error: image::ImageError| format!("{}: {error}", path.display()))
+    Ok(page)
 }

@@ -13,7 +13,11 @@ use std::path::Path;
 pub use device::{GpuClockPlugin, gpu_frame, has_timestamps};
 pub use race::{Clock, Race, Timing, Variant};
 
+use bevy::math::UVec2;
 use serde::Serialize;
+
+use super::headless::{Headless, adapter_name};
+use crate::frusta::FrustaStats;
 
 /// What an example measured.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -39,6 +43,46 @@ pub struct FrameStats {
 }
 
 impl FrameStats {
+    /// Times frames with and without plants, in turns; `show` shows or hides them.
+    pub fn measure(
+        headless: &mut Headless,
+        size: UVec2,
+        frames: usize,
+        show: impl Fn(&mut Headless, bool),
+    ) -> Self {
+        let race = Race {
+            rounds: frames.max(1),
+            warm_up: 0,
+            settle: 1,
+        };
+        let mut variants = [("plants", true), ("empty", false)].map(|(name, shown)| {
+            Variant::new(name, {
+                let show = &show;
+                move |headless: &mut Headless| show(headless, shown)
+            })
+        });
+        let (mut cutting_planes, mut uploaded) = (Vec::new(), Vec::new());
+        let timings = race.run_and_look(headless, &mut variants, |_, headless| {
+            let stats = headless.world().resource::<FrustaStats>();
+            cutting_planes.push(stats.cutting_planes.as_secs_f64() * 1e3);
+            uploaded.push(stats.uploaded_bytes);
+        });
+        show(headless, true);
+        headless.step();
+        let stats = *headless.world().resource::<FrustaStats>();
+        Self {
+            adapter: adapter_name(headless.world()),
+            size: size.to_array(),
+            frames: race.rounds,
+            plants: stats.plants,
+            segments: stats.segments,
+            median_frame_ms: timings[0].frame_ms,
+            median_empty_frame_ms: timings[1].frame_ms,
+            median_cutting_planes_ms: median(&cutting_planes),
+            uploaded_bytes_per_frame: median(&uploaded),
+        }
+    }
+
     /// Writes the figures as JSON.
     pub fn save(&self, path: &Path) -> Result<(), String> {
         let text = serde_json::to_string_pretty(self).map_err(|error| error.to_string())?;
