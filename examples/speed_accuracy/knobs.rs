@@ -52,8 +52,12 @@ fn knobs(plan: &Plan) -> Vec<Knob> {
             "relief steps",
             (plan.steps.iter())
                 .map(|&n| (n.to_string(), steps(ReliefSteps::Fixed(n))))
-                .chain([("auto".into(), steps(ReliefSteps::Auto))])
                 .collect(),
+        ),
+        // Apart from the others, for it has no place in their order.
+        knob(
+            "automatic steps",
+            vec![("auto".into(), steps(ReliefSteps::Auto))],
         ),
         knob(
             "bisections",
