@@ -50,7 +50,7 @@ impl Plan {
             scenes: Scene::ALL.to_vec(),
             race: Race::default(),
             subdivisions: 5,
-            limit: 512 << 20,
+            limit: 256 << 20,
             steps: &[4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256],
             bisections: &[0, 1, 2, 3, 4, 5, 6, 8, 10],
             segments: &[100, 1_000, 10_000, 100_000, 1_000_000],

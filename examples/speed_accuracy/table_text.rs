@@ -25,10 +25,11 @@ pub fn save(lab: &Lab, plan: &Plan, rows: &[Row], dir: &Path) -> Result<(), Stri
 fn markdown(lab: &Lab, plan: &Plan, rows: &[Row]) -> String {
     let mut text = format!(
         "# Table 1 of the frusta paper, again\n\n\
-         {}, {} x {}; {} in milliseconds above the empty scene's, medians of {} frames. RC: frusta, ray cast; GS: polygons by geometric subdivision, \
-         m times; +R: with relief. Polygons are subdivided until their mean FLIP, against the finest frusta or the finest \
-         polygons, whichever is nearer, is at most that of frusta and {AS_GOOD}; where that is not reached, the finest \
-         that were tried are listed, marked by >. KiB are those of what describes the shape.\n\n",
+         {}, {} x {}; {} in milliseconds above the empty scene's, medians of {} frames.\n\n\
+         RC: frusta, ray cast; GS: polygons by geometric subdivision, m times; +R: with relief. Polygons are subdivided \
+         until their mean FLIP, against the finest frusta or the finest polygons, whichever is nearer, is at most that of \
+         frusta and {AS_GOOD}; where that is not reached, the best that were tried are listed, marked by >. KiB are those \
+         of what describes the shape.\n\n",
         lab.adapter,
         plan.size.x,
         plan.size.y,

@@ -79,7 +79,8 @@ impl Judge {
     }
 
     /// Subdivides polygons until their error is at most `target` and [`AS_GOOD`]: 0 to `most` times, in at most `limit`
-    /// bytes. `None` if not even the coarsest fit. The ones found stay up, all others are taken down.
+    /// bytes. Where none are that good the best are taken, which need not be the finest: triangles smaller than a pixel
+    /// flicker. `None` if not even the coarsest fit. The ones found stay up, all others are taken down.
     ///
     /// Frusta and polygons shade alike only where a limb is straight: Equation 8 is continuous at joints, and on steep
     /// cones it is not the surface's normal. So polygons are judged by two references, whichever is nearer: that of
@@ -103,36 +104,34 @@ impl Judge {
         };
         let finest = (0..=most).rfind(|&m| put_up(studio, exhibit, m).is_ok())?;
         let own = Self::new(studio, exhibit, polygons(finest), self.shot);
-        let mut tried = Vec::new();
-        for subdivisions in 0..=finest {
-            let rival = polygons(subdivisions);
-            let Ok(weight) = put_up(studio, exhibit, subdivisions) else {
-                break;
-            };
-            let picture = self.picture(studio, exhibit, rival).rgb_bytes();
-            let is_finest = subdivisions == finest;
-            let flips = Flips {
+        let mut tried: Vec<Flips> = Vec::new();
+        for m in 0..=finest {
+            put_up(studio, exhibit, m).ok()?;
+            let picture = self.picture(studio, exhibit, polygons(m)).rgb_bytes();
+            tried.push(Flips {
                 to_frusta: self.flip_of(&picture),
-                to_own_limit: (!is_finest).then(|| own.flip_of(&picture)),
-            };
-            tried.push(flips);
-            let reached = flips.nearer() <= target + AS_GOOD;
-            if reached || is_finest {
-                if !is_finest {
-                    exhibit.take_down(&mut studio.headless, polygons(finest));
-                }
-                return Some(Match {
-                    rival,
-                    subdivisions,
-                    flip: flips.nearer(),
-                    weight,
-                    reached,
-                    tried,
-                });
+                to_own_limit: (m < finest).then(|| own.flip_of(&picture)),
+            });
+            if m < finest {
+                exhibit.take_down(&mut studio.headless, polygons(m));
             }
-            exhibit.take_down(&mut studio.headless, rival);
+            if tried[m as usize].nearer() <= target + AS_GOOD {
+                break;
+            }
         }
-        None
+        let flips = tried.iter().map(Flips::nearer);
+        let (subdivisions, flip) = (0..).zip(flips).min_by(|a, b| a.1.total_cmp(&b.1))?;
+        if subdivisions < finest {
+            exhibit.take_down(&mut studio.headless, polygons(finest));
+        }
+        Some(Match {
+            rival: polygons(subdivisions),
+            subdivisions,
+            flip,
+            weight: put_up(studio, exhibit, subdivisions).ok()?,
+            reached: flip <= target + AS_GOOD,
+            tried,
+        })
     }
 
     fn flip_of(&self, picture: &[u8]) -> f32 {
@@ -169,7 +168,7 @@ pub struct Match {
     pub flip: f32,
     /// What they weigh.
     pub weight: Weight,
-    /// Whether they are as good, or just the finest that were tried.
+    /// Whether they are as good, or just the best that were tried.
     pub reached: bool,
     /// The errors of each subdivision that was tried, from 0 on.
     pub tried: Vec<Flips>,
