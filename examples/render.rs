@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use bevy::math::{UVec2, Vec3};
 use bevy::prelude::*;
 use bevy_verdure::lab::{
-    CommonArgs, Figures, FrameStats, Lens, Shot, Studio, adapter_name, median, parse_vec3, save_exr,
+    CommonArgs, Figures, FrameStats, Headless, Lens, Shot, Studio, parse_vec3, save_exr,
 };
 use bevy_verdure::prelude::*;
 use bevy_verdure::skeleton::{SkeletonLoaderSettings, skeleton_from_bytes};
@@ -134,7 +134,16 @@ fn run(args: &Args) -> Result<(), String> {
         }
     }
     if let Some(stats) = &args.common.stats {
-        measure_run(&mut studio, plant, &shot, args.common.frames).save(stats)?;
+        let frames = args.common.frames;
+        let show = |headless: &mut Headless, shown| {
+            let visibility = if shown {
+                Visibility::Visible
+            } else {
+                Visibility::Hidden
+            };
+            headless.world().entity_mut(plant).insert(visibility);
+        };
+        FrameStats::measure(&mut studio.headless, shot.size, frames, show).save(stats)?;
         println!("{}", stats.display());
     }
     Ok(())
@@ -238,38 +247,4 @@ fn write_aov(aov: Aov, figures: &Figures, out: &Path, stem: &str) -> Result<Path
     let file = out.join(format!("{stem}.{name}.exr"));
     save_exr(&file, (width, height), &channels)?;
     Ok(file)
-}
-
-/// Times frames with and without the plant, in turns.
-fn measure_run(studio: &mut Studio, plant: Entity, shot: &Shot, frames: usize) -> FrameStats {
-    let mut times = [Vec::new(), Vec::new()];
-    let mut cutting_planes = Vec::new();
-    let mut uploaded = Vec::new();
-    for _ in 0..frames.max(1) {
-        for (hidden, times) in times.iter_mut().enumerate() {
-            let visibility = [Visibility::Visible, Visibility::Hidden][hidden];
-            studio.world().entity_mut(plant).insert(visibility);
-            studio.headless.step();
-            bevy_verdure::lab::wait_for_gpu(studio.world());
-            let started = std::time::Instant::now();
-            studio.headless.step();
-            bevy_verdure::lab::wait_for_gpu(studio.world());
-            times.push(started.elapsed().as_secs_f64() * 1e3);
-        }
-        let stats = *studio.world().resource::<FrustaStats>();
-        cutting_planes.push(stats.cutting_planes.as_secs_f64() * 1e3);
-        uploaded.push(stats.uploaded_bytes);
-    }
-    let stats = *studio.world().resource::<FrustaStats>();
-    FrameStats {
-        adapter: adapter_name(studio.world()),
-        size: shot.size.to_array(),
-        frames: frames.max(1),
-        plants: stats.plants,
-        segments: stats.segments,
-        median_frame_ms: median(&times[0]),
-        median_empty_frame_ms: median(&times[1]),
-        median_cutting_planes_ms: median(&cutting_planes),
-        uploaded_bytes_per_frame: median(&uploaded),
-    }
 }

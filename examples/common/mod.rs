@@ -5,15 +5,13 @@
 pub mod stage;
 pub mod texture;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use bevy::camera::{Hdr, RenderTarget};
 use bevy::camera_controller::free_camera::{FreeCamera, FreeCameraPlugin};
 use bevy::prelude::*;
 use bevy::render::render_resource::TextureFormat;
-use bevy_verdure::lab::{
-    CommonArgs, FrameStats, Headless, Pixels, adapter_name, median, wait_for_gpu,
-};
+use bevy_verdure::lab::{CommonArgs, FrameStats, Headless, Pixels};
 use bevy_verdure::prelude::*;
 
 /// Frames that are drawn before any is kept: assets load, textures reach the GPU.
@@ -101,7 +99,7 @@ fn run_headless(
     std::fs::create_dir_all(out).map_err(|error| format!("{}: {error}", out.display()))?;
     let (mut headless, target) = open(args.size, configure)?;
     if let Some(file) = &args.stats {
-        let stats = measure(&mut headless, args);
+        let stats = FrameStats::measure(&mut headless, args.size, args.frames, show_plants);
         stats.save(file)?;
         println!("{}", file.display());
     }
@@ -118,46 +116,16 @@ fn run_headless(
     Ok(())
 }
 
-/// Times frames with and without plants, in turns.
-fn measure(headless: &mut Headless, args: &CommonArgs) -> FrameStats {
-    let mut times = [Vec::new(), Vec::new()];
-    let mut cutting_planes = Vec::new();
-    let mut uploaded = Vec::new();
-    for _ in 0..args.frames.max(1) {
-        for (hidden, times) in times.iter_mut().enumerate() {
-            let world = headless.world();
-            let mut plants = world.query_filtered::<&mut Visibility, With<Skeleton3d>>();
-            for mut visibility in plants.iter_mut(world) {
-                *visibility = [Visibility::Inherited, Visibility::Hidden][hidden];
-            }
-            headless.step();
-            wait_for_gpu(headless.world());
-            let started = Instant::now();
-            headless.step();
-            wait_for_gpu(headless.world());
-            times.push(started.elapsed().as_secs_f64() * 1e3);
-        }
-        let stats = headless.world().resource::<FrustaStats>();
-        cutting_planes.push(stats.cutting_planes.as_secs_f64() * 1e3);
-        uploaded.push(stats.uploaded_bytes);
-    }
+/// Shows or hides all plants.
+fn show_plants(headless: &mut Headless, shown: bool) {
     let world = headless.world();
     let mut plants = world.query_filtered::<&mut Visibility, With<Skeleton3d>>();
     for mut visibility in plants.iter_mut(world) {
-        *visibility = Visibility::Inherited;
-    }
-    headless.step();
-    let stats = *headless.world().resource::<FrustaStats>();
-    FrameStats {
-        adapter: adapter_name(headless.world()),
-        size: args.size.to_array(),
-        frames: args.frames.max(1),
-        plants: stats.plants,
-        segments: stats.segments,
-        median_frame_ms: median(&times[0]),
-        median_empty_frame_ms: median(&times[1]),
-        median_cutting_planes_ms: median(&cutting_planes),
-        uploaded_bytes_per_frame: median(&uploaded),
+        *visibility = if shown {
+            Visibility::Inherited
+        } else {
+            Visibility::Hidden
+        };
     }
 }
 

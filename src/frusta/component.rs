@@ -10,12 +10,14 @@ use super::single::join::{JoinKind, Skin};
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum Join {
     /// Along the curve in which both cones meet: exact, sharp, and the cheapest to draw. Bends too sharp for
-    /// their segments' length fall back to `Round`, as strokes of a vector drawing do.
+    /// their segments' length fall back to `Round`, as strokes of a vector drawing do: cylinders four radii long from
+    /// 152° on.
     #[default]
     Mitre,
     /// With a sphere of the joint's radius: watertight for every bend up to and including a fold.
     Round,
-    /// As the paper builds it (Equations 3 to 5), for comparison. Leaves gaps where bent cones taper.
+    /// As the paper builds it (Equations 3 to 5), for comparison. Leaves gaps where bent cones taper: 2 to 5 % of the
+    /// radius where each of them halves it over four radii; `docs/limits.md` has a chart.
     Paper,
     /// As the paper builds it, iterated on the base radius (§2.2), for comparison.
     PaperIterated,

@@ -4,17 +4,28 @@
 
 mod args;
 mod capture;
+pub mod charts;
 mod compare;
+mod error;
 mod exr_file;
 mod headless;
+pub mod limits;
 pub mod reference;
+pub mod rivals;
 mod studio;
+mod supersample;
+mod texture;
 mod timing;
 
 pub use args::{CommonArgs, Size, parse_size, parse_vec3};
 pub use capture::{Pixels, load_png};
 pub use compare::mean_flip;
+pub use error::GeometryError;
 pub use exr_file::save_exr;
 pub use headless::{Headless, adapter_name, wait_for_gpu};
 pub use studio::{Figures, Lens, NEAR, SeenPixel, Shot, Studio};
-pub use timing::{FrameStats, median};
+pub use supersample::box_downsample;
+pub use texture::{painted, texture};
+pub use timing::{
+    Clock, FrameStats, GpuClockPlugin, Race, Timing, Variant, gpu_frame, has_timestamps, median,
+};

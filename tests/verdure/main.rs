@@ -8,6 +8,7 @@ mod lifecycle;
 mod live;
 mod polygons;
 mod relief;
+mod rivals;
 mod skeleton_files;
 mod skeletons;
 mod twins;

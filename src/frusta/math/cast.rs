@@ -4,6 +4,8 @@
 //! far away, and its discriminant when the frustum is thin, so the origin is first moved along the ray to the
 //! point nearest the segment's middle, then to the vertex of the parabola. Of the roots the first counts
 //! that is ahead, on the proper nappe and between the planes. `shaders/cast.wgsl` is this file term for term.
+//!
+//! In 32 bits the depth is right to 10⁻⁷ of itself, from 1 to 10⁷ lengths away (`docs/limits.md`, Precision).
 
 use super::cone::{EndKind, Frustum};
 use super::scalar::{Real, Vec3};

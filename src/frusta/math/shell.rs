@@ -12,7 +12,8 @@ use super::mitre::mitre;
 use super::scalar::{Real, Vec3, consts};
 use super::surface::{align, align_turned};
 
-/// Height of the cones whose cutting planes divide the shell.
+/// Height of the cones whose cutting planes divide the shell. While the outer frusta have room for their mitres each
+/// point has one owner; in a thicker shell the join is round, and neighbours overlap (`docs/limits.md`, Thick shells).
 pub const PLANE_LEVEL: Real = 0.5;
 
 /// How thick the shell is at a joint.
@@ -306,7 +307,8 @@ fn lower(end: &mut End, sine: Real) {
 /// Lines up the u of all shells, as [`align`] does; then, if `continuous`, all round each cut.
 ///
 /// Equation 6 is in line with the segment before at u = 0 alone: with taper t and at a bend, cones see the points of
-/// their common cut at azimuths that differ by up to about (t1 + t2) tan(bend/2), and ridges of the relief break there.
+/// their common cut at azimuths that differ by up to about (t1 + t2) tan(bend/2), and ridges of the relief break there,
+/// by up to twice that where u = 0 lies across the plane of the bend (`docs/limits.md`, u at a mitre).
 /// In polar form the cut is r = C/(1 + η cos φ) on either cone, φ measured from the outside of the bend, with
 /// η = k (n·b)/(n·M). That makes one azimuth a projective function of the other,
 ///

@@ -16,9 +16,11 @@ struct ReliefSettings {
     // Pixels of the map.
     size: vec2<f32>,
     bisections: u32,
-    unused_0: u32,
-    unused_1: u32,
-    unused_2: u32,
+    // No digits at the end of a name: naga_oil hands the struct on with underscores added, as another type, and the
+    // binding comes out twice.
+    unused_a: u32,
+    unused_b: u32,
+    unused_c: u32,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(103) var<uniform> relief: ReliefSettings;
