@@ -57,6 +57,8 @@ pub mod single;
 mod stats;
 mod systems;
 mod table;
+#[cfg(test)]
+mod tests;
 mod to_mesh;
 
 use bevy::asset::AssetEventSystems;
