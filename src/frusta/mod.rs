@@ -118,6 +118,7 @@ impl Plugin for FrustaPlugin {
                 (
                     (
                         systems::begin_frame,
+                        mesh::refill.run_if(resource_exists_and_changed::<RenderDevice>),
                         systems::follow_skeletons,
                         systems::attach,
                     )
