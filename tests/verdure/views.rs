@@ -198,3 +198,34 @@ fn a_limb_that_reaches_behind_the_eye_is_whole_beyond_an_oblique_near_plane() {
     let (plant, _) = view.check(&picture, &scenery);
     assert!(plant > 1000);
 }
+
+#[test]
+fn an_eye_within_the_bounds_sees_the_surface_round_it_mirrored_or_not() {
+    // Inside a limb, which is its own mirror image.
+    let joints = vec![
+        Joint::root(Vec3::NEG_Y * 2.0, 0.6),
+        Joint::new(Vec3::Y * 2.0, 0.4, 0),
+    ];
+    let limb = Skeleton::new(joints).unwrap();
+    let view = View {
+        eye: Transform::from_xyz(0.1, 0.2, 0.1).looking_to(Vec3::new(0.3, 0.4, -1.0), Vec3::Y),
+        projection: Projection::default(),
+        jitter: None,
+        size: SIZE,
+    };
+    for scale in [Vec3::ONE, Vec3::new(-1.0, 1.0, 1.0)] {
+        let mut studio = Studio::default();
+        let scenery = Scenery {
+            plant: reference(&limb),
+            wall: None,
+        };
+        studio.plant(
+            limb.clone(),
+            Frusta::default(),
+            Transform::from_scale(scale),
+        );
+        let picture = view.look(&mut studio);
+        let (plant, _) = view.check(&picture, &scenery);
+        assert_eq!(plant, (SIZE.x * SIZE.y) as usize);
+    }
+}
