@@ -14,7 +14,7 @@ use super::records::JointRecord;
 use super::share::SkeletonKey;
 use super::single::cone::Frustum;
 use super::single::join::{PosedJoint, skin};
-use super::single::surface::align;
+use super::single::surface::align_rolled;
 use super::table::Rows;
 use crate::skeleton::PosedJoints;
 
@@ -56,7 +56,7 @@ impl OwnPose {
             changed: Vec::new(),
             moving: false,
         };
-        pose.skin(linked, settings, |i| linked.references[i]);
+        pose.skin(linked, settings, |i| linked.references[i], |_| 0.0);
         let joints = pose.posed.iter().zip(&pose.frusta);
         pose.records.extend(joints.map(|(joint, frustum)| {
             let join = settings.skin().join;
@@ -75,12 +75,13 @@ impl OwnPose {
                 joint.position = *position;
             }
         }
-        self.skin(linked, settings, |i| {
+        let first = |i| {
             let turned = pose
                 .frame(i)
                 .map(|frame| frame.transform_vector3(linked.references[i]));
             turned.unwrap_or(linked.references[i])
-        });
+        };
+        self.skin(linked, settings, first, |i| pose.roll(i));
         let join = settings.skin().join;
         for (i, record) in self.records.iter_mut().enumerate() {
             let position = self.posed[i].position;
@@ -107,14 +108,20 @@ impl OwnPose {
         self.bounds = aabb(&self.frusta);
     }
 
-    fn skin(&mut self, linked: &LinkedSkeleton, settings: Frusta, first: impl Fn(usize) -> Vec3) {
+    fn skin(
+        &mut self,
+        linked: &LinkedSkeleton,
+        settings: Frusta,
+        first: impl Fn(usize) -> Vec3,
+        roll: impl Fn(usize) -> f32,
+    ) {
         skin(
             &linked.links,
             &self.posed,
             settings.skin(),
             &mut self.frusta,
         );
-        align(&linked.links, &mut self.frusta, first);
+        align_rolled(&linked.links, &mut self.frusta, first, roll);
     }
 }
 

@@ -4,9 +4,12 @@ use bevy::asset::prelude::AssetChanged;
 use bevy::math::Affine3A;
 use bevy::prelude::*;
 
-use super::{Joint, Skeleton, Skeleton3d, UnfoldSkeleton};
+use super::{Joint, Skeleton, Skeleton3d, UnfoldSkeleton, roll};
 
 /// Bends a plant by a rotation a joint: the cheap way, for crowds.
+///
+/// What a rotation turns about the segment's own axis bends nothing; it turns the segment's texture, and that of what
+/// continues it or grows on it.
 ///
 /// Write the rotations from any system before [`VerdureSystems::Pose`](crate::VerdureSystems::Pose); nothing is
 /// recomputed while this component is unchanged. Without effect on a plant that is unfolded
@@ -31,6 +34,8 @@ pub struct PosedJoints {
     pub(crate) positions: Vec<Vec3>,
     /// Frame of each segment: maps its rest frame, with the origin at the segment's start, to local space.
     pub(crate) frames: Vec<Affine3A>,
+    /// Turn of each segment about its own axis, within its parent segment's frame; empty where none is turned.
+    rolls: Vec<f32>,
 }
 
 impl PosedJoints {
@@ -45,10 +50,17 @@ impl PosedJoints {
         self.frames.get(joint).copied()
     }
 
+    /// The turn of the segment that ends at `joint` about its own axis, within its parent segment's frame, by the right
+    /// hand, in radians.
+    pub(crate) fn roll(&self, joint: usize) -> f32 {
+        self.rolls.get(joint).copied().unwrap_or(0.0)
+    }
+
     /// Poses all joints. `local(i)` is the transform of segment `i` within its parent segment's frame.
     pub(crate) fn set(&mut self, joints: &[Joint], local: impl Fn(usize) -> Affine3A) {
         self.positions.resize(joints.len(), Vec3::ZERO);
         self.frames.resize(joints.len(), Affine3A::IDENTITY);
+        self.rolls.clear();
         for (i, joint) in joints.iter().enumerate() {
             let Some(parent) = joint.parent else {
                 self.positions[i] = joint.position;
@@ -56,9 +68,16 @@ impl PosedJoints {
                 continue;
             };
             let parent = parent as usize;
-            let frame = self.frames[parent] * local(i);
+            let along = joint.position - joints[parent].position;
+            let local = local(i);
+            let roll = roll::about(along, &local);
+            if roll != 0.0 {
+                self.rolls.resize(joints.len(), 0.0);
+                self.rolls[i] = roll;
+            }
+            let frame = self.frames[parent] * local;
             self.frames[i] = frame;
-            self.positions[i] = frame.transform_point3(joint.position - joints[parent].position);
+            self.positions[i] = frame.transform_point3(along);
         }
     }
 }

@@ -11,8 +11,8 @@ use super::{Joint, PosedJoints, Skeleton, Skeleton3d, SkeletonPose};
 ///
 /// Segments are children along the hierarchy: each is a child of the segment that its own starts from, those at
 /// a root children of the plant. A segment's origin is its start, its axes are the plant's at rest, so its
-/// rest [`Transform`] is a translation alone. Rotate it and all that hangs on it bends along. Each has a
-/// [`Name`], `Segment 7`, so that animation clips can address it.
+/// rest [`Transform`] is a translation alone. Rotate it and all that hangs on it bends along; what a rotation turns about
+/// the segment's own axis turns its texture. Each has a [`Name`], `Segment 7`, so that animation clips can address it.
 ///
 /// When the skeleton is reloaded, segments move to their new places and keep their rotations and all that hangs on
 /// them; only if joints have come, gone or found other parents is the plant unfolded anew, and then what hangs on its

@@ -10,6 +10,7 @@ mod meshes;
 mod multisample;
 mod polygons;
 mod recovery;
+mod roll;
 mod skeleton_files;
 mod skeletons;
 mod twins;

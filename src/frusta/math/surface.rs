@@ -100,6 +100,20 @@ pub fn surface_point(
 /// # Panics
 /// If the slices differ in length.
 pub fn align(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Vec3) {
+    align_rolled(links, frusta, first, |_| 0.0);
+}
+
+/// The same for segments that are turned about their own axes: `roll(i)`, in radians by the right hand, is added to
+/// what is carried over to segment `i`.
+///
+/// # Panics
+/// If the slices differ in length.
+pub fn align_rolled(
+    links: &[Link],
+    frusta: &mut [Frustum],
+    first: impl Fn(usize) -> Vec3,
+    roll: impl Fn(usize) -> Real,
+) {
     assert_eq!(links.len(), frusta.len());
     for i in 0..links.len() {
         let parent = links[i].parent;
@@ -107,15 +121,21 @@ pub fn align(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Ve
             continue;
         }
         let parent = parent as usize;
-        let wish = if links[parent].parent == NONE {
+        let begins = links[parent].parent == NONE;
+        let wish = if begins {
             first(i)
         } else {
             carry_over(&frusta[parent], links[parent].twist, &frusta[i])
         };
         let axis = frusta[i].axis;
-        frusta[i].reference = (wish - axis * wish.dot(axis))
+        let mut reference = (wish - axis * wish.dot(axis))
             .try_normalize()
             .unwrap_or_else(|| axis.any_orthonormal_vector());
+        let roll = if begins { 0.0 } else { roll(i) };
+        if roll != 0.0 {
+            reference = reference * roll.cos() + axis.cross(reference) * roll.sin();
+        }
+        frusta[i].reference = reference;
     }
 }
 
