@@ -56,7 +56,7 @@ impl OwnPose {
             changed: Vec::new(),
             moving: false,
         };
-        pose.skin(linked, settings, |i| linked.references[i], |_| 0.0);
+        pose.skin(linked, settings, |i| linked.references[i], |_| None);
         let joints = pose.posed.iter().zip(&pose.frusta);
         pose.records.extend(joints.map(|(joint, frustum)| {
             let join = settings.skin().join;
@@ -113,7 +113,7 @@ impl OwnPose {
         linked: &LinkedSkeleton,
         settings: Frusta,
         first: impl Fn(usize) -> Vec3,
-        roll: impl Fn(usize) -> f32,
+        roll: impl Fn(usize) -> Option<[f32; 2]>,
     ) {
         skin(
             &linked.links,

@@ -34,8 +34,9 @@ pub struct PosedJoints {
     pub(crate) positions: Vec<Vec3>,
     /// Frame of each segment: maps its rest frame, with the origin at the segment's start, to local space.
     pub(crate) frames: Vec<Affine3A>,
-    /// Turn of each segment about its own axis, within its parent segment's frame; empty where none is turned.
-    rolls: Vec<f32>,
+    /// Turn of each segment about its own axis, within its parent segment's frame, as cosine and sine; empty where none
+    /// is turned.
+    rolls: Vec<Vec2>,
 }
 
 impl PosedJoints {
@@ -51,9 +52,9 @@ impl PosedJoints {
     }
 
     /// The turn of the segment that ends at `joint` about its own axis, within its parent segment's frame, by the right
-    /// hand, in radians.
-    pub(crate) fn roll(&self, joint: usize) -> f32 {
-        self.rolls.get(joint).copied().unwrap_or(0.0)
+    /// hand: cosine and sine.
+    pub(crate) fn roll(&self, joint: usize) -> Option<[f32; 2]> {
+        self.rolls.get(joint).map(Vec2::to_array)
     }
 
     /// Poses all joints. `local(i)` is the transform of segment `i` within its parent segment's frame.
@@ -70,9 +71,8 @@ impl PosedJoints {
             let parent = parent as usize;
             let along = joint.position - joints[parent].position;
             let local = local(i);
-            let roll = roll::about(along, &local);
-            if roll != 0.0 {
-                self.rolls.resize(joints.len(), 0.0);
+            if let Some(roll) = roll::about(along, &local) {
+                self.rolls.resize(joints.len(), Vec2::X);
                 self.rolls[i] = roll;
             }
             let frame = self.frames[parent] * local;

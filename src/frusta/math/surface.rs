@@ -100,10 +100,10 @@ pub fn surface_point(
 /// # Panics
 /// If the slices differ in length.
 pub fn align(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Vec3) {
-    align_rolled(links, frusta, first, |_| 0.0);
+    align_rolled(links, frusta, first, |_| None);
 }
 
-/// The same for segments that are turned about their own axes: `roll(i)`, in radians by the right hand, is added to
+/// The same for segments that are turned about their own axes: `roll(i)`, cosine and sine by the right hand, is added to
 /// what is carried over to segment `i`.
 ///
 /// # Panics
@@ -112,7 +112,7 @@ pub fn align_rolled(
     links: &[Link],
     frusta: &mut [Frustum],
     first: impl Fn(usize) -> Vec3,
-    roll: impl Fn(usize) -> Real,
+    roll: impl Fn(usize) -> Option<[Real; 2]>,
 ) {
     assert_eq!(links.len(), frusta.len());
     for i in 0..links.len() {
@@ -131,9 +131,8 @@ pub fn align_rolled(
         let mut reference = (wish - axis * wish.dot(axis))
             .try_normalize()
             .unwrap_or_else(|| axis.any_orthonormal_vector());
-        let roll = if begins { 0.0 } else { roll(i) };
-        if roll != 0.0 {
-            reference = reference * roll.cos() + axis.cross(reference) * roll.sin();
+        if !begins && let Some([cos, sin]) = roll(i) {
+            reference = reference * cos + axis.cross(reference) * sin;
         }
         frusta[i].reference = reference;
     }
