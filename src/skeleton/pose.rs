@@ -62,6 +62,7 @@ impl PosedJoints {
         self.positions.resize(joints.len(), Vec3::ZERO);
         self.frames.resize(joints.len(), Affine3A::IDENTITY);
         self.rolls.clear();
+        let mut is_root_moved = false;
         for (i, joint) in joints.iter().enumerate() {
             let Some(parent) = joint.parent else {
                 self.positions[i] = joint.position;
@@ -78,6 +79,22 @@ impl PosedJoints {
             let frame = self.frames[parent] * local;
             self.frames[i] = frame;
             self.positions[i] = frame.transform_point3(along);
+            is_root_moved |= joints[parent].parent.is_none()
+                && Vec3::from(frame.translation) != joints[parent].position;
+        }
+        if is_root_moved {
+            self.move_roots(joints);
+        }
+    }
+
+    /// Moves each root to where the first segment that begins there starts.
+    fn move_roots(&mut self, joints: &[Joint]) {
+        for (joint, frame) in joints.iter().zip(&self.frames).rev() {
+            if let Some(parent) = joint.parent
+                && joints[parent as usize].parent.is_none()
+            {
+                self.positions[parent as usize] = frame.translation.into();
+            }
         }
     }
 }

@@ -11,6 +11,7 @@ mod multisample;
 mod polygons;
 mod recovery;
 mod roll;
+mod segments;
 mod skeleton_files;
 mod skeletons;
 mod twins;
