@@ -51,6 +51,16 @@ impl FrustaMeshes {
     }
 }
 
+/// Fills the meshes anew for a device that has taken a lost one's place: the main world keeps nothing of what they were
+/// filled with.
+pub(crate) fn refill(known: Res<FrustaMeshes>, mut meshes: ResMut<Assets<Mesh>>) {
+    for (size, id) in &known.by_size {
+        if let Some(mut mesh) = meshes.get_mut(*id) {
+            *mesh = corners(*size);
+        }
+    }
+}
+
 /// Rounds up to four steps an octave: at most a fifth of a mesh is spare.
 fn size_class(count: usize) -> usize {
     let count = count.max(4);

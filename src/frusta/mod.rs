@@ -59,6 +59,8 @@ pub mod single;
 mod stats;
 mod systems;
 mod table;
+#[cfg(test)]
+mod tests;
 mod to_mesh;
 
 use bevy::asset::AssetEventSystems;
@@ -123,6 +125,7 @@ impl Plugin for FrustaPlugin {
                 (
                     (
                         systems::begin_frame,
+                        mesh::refill.run_if(resource_exists_and_changed::<RenderDevice>),
                         systems::follow_skeletons,
                         systems::attach,
                     )

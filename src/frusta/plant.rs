@@ -15,7 +15,7 @@ use super::share::SkeletonKey;
 use super::single::cone::Frustum;
 use super::single::join::{NONE, PosedJoint, skin};
 use super::single::shell::{at_height, skin_level, start_radius};
-use super::single::surface::{align, align_turned};
+use super::single::surface::{align_rolled, align_turned};
 use super::table::Rows;
 use crate::skeleton::PosedJoints;
 
@@ -57,7 +57,7 @@ impl OwnPose {
             changed: Vec::new(),
             moving: false,
         };
-        pose.skin(linked, shaping, |i| linked.references[i]);
+        pose.skin(linked, shaping, |i| linked.references[i], |_| None);
         let joints = pose.posed.iter().zip(&pose.frusta);
         pose.records.extend(joints.map(|(joint, frustum)| {
             let join = shaping.frusta.skin().join;
@@ -76,12 +76,13 @@ impl OwnPose {
                 joint.position = *position;
             }
         }
-        self.skin(linked, shaping, |i| {
+        let first = |i| {
             let turned = pose
                 .frame(i)
                 .map(|frame| frame.transform_vector3(linked.references[i]));
             turned.unwrap_or(linked.references[i])
-        });
+        };
+        self.skin(linked, shaping, first, |i| pose.roll(i));
         let join = shaping.frusta.skin().join;
         for (i, record) in self.records.iter_mut().enumerate() {
             let position = self.posed[i].position;
@@ -123,27 +124,30 @@ impl OwnPose {
         };
     }
 
-    fn skin(&mut self, linked: &LinkedSkeleton, shaping: Shaping, first: impl Fn(usize) -> Vec3) {
+    fn skin(
+        &mut self,
+        linked: &LinkedSkeleton,
+        shaping: Shaping,
+        first: impl Fn(usize) -> Vec3,
+        roll: impl Fn(usize) -> Option<[f32; 2]>,
+    ) {
         let links = &linked.links;
         let settings = shaping.frusta.skin();
-        match shaping.shell() {
-            None => {
-                skin(links, &self.posed, settings, &mut self.frusta);
-                align(links, &mut self.frusta, first);
-            }
-            Some(shell) => {
-                let radius = |i: usize| linked.rest[i].radius;
-                skin_level(
-                    links,
-                    &mut self.posed,
-                    radius,
-                    settings,
-                    shell,
-                    &mut self.frusta,
-                );
-                align_turned(links, &mut self.frusta, first);
-            }
-        }
+        let Some(shell) = shaping.shell() else {
+            skin(links, &self.posed, settings, &mut self.frusta);
+            align_rolled(links, &mut self.frusta, first, roll);
+            return;
+        };
+        let radius = |i: usize| linked.rest[i].radius;
+        skin_level(
+            links,
+            &mut self.posed,
+            radius,
+            settings,
+            shell,
+            &mut self.frusta,
+        );
+        align_turned(links, &mut self.frusta, first, roll);
     }
 }
 

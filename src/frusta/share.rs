@@ -11,7 +11,7 @@ use super::links::LinkedSkeleton;
 use super::plant::{FrustaPlant, OwnPose};
 use super::records::{JointRecord, PlantRecord, ShapeRecord};
 use super::shaping::Shaping;
-use super::table::{Rows, Table};
+use super::table::{NoRoomError, Rows, Table};
 use crate::skeleton::Skeleton;
 
 /// A skeleton as it was when it was last loaded: plants keep the old one until they follow a reload.
@@ -32,6 +32,8 @@ pub(crate) struct FrustaData {
     stances: HashMap<(SkeletonKey, Shaping), SharedStance>,
     /// Plants that have a place in the tables, and their segments.
     drawn: (usize, usize),
+    /// Some plant has given its place back since those that wait for one were last tried.
+    gave_back: bool,
 }
 
 /// What all plants of a skeleton share, whatever their pose.
@@ -48,21 +50,43 @@ struct SharedStance {
     users: usize,
 }
 
+/// A plant's place in the tables.
+struct Place {
+    slot: Rows,
+    joints: Rows,
+    bounds: Aabb,
+    own: Option<OwnPose>,
+}
+
 impl Default for FrustaData {
     fn default() -> Self {
-        Self {
-            joints: Table::new("joints"),
-            shapes: Table::new("joints"),
-            plants: Table::new("plants"),
-            versions: HashMap::default(),
-            skeletons: HashMap::default(),
-            stances: HashMap::default(),
-            drawn: (0, 0),
-        }
+        Self::with_tables(
+            Table::new("joints"),
+            Table::new("joints"),
+            Table::new("plants"),
+        )
     }
 }
 
 impl FrustaData {
+    /// With nothing in any table.
+    pub(crate) fn with_tables(
+        joints: Table<JointRecord>,
+        shapes: Table<ShapeRecord>,
+        plants: Table<PlantRecord>,
+    ) -> Self {
+        Self {
+            joints,
+            shapes,
+            plants,
+            versions: HashMap::default(),
+            skeletons: HashMap::default(),
+            stances: HashMap::default(),
+            drawn: (0, 0),
+            gave_back: false,
+        }
+    }
+
     /// The key of a skeleton as it is now.
     pub(crate) fn key(&self, id: AssetId<Skeleton>) -> SkeletonKey {
         let version = self.versions.get(&id).copied().unwrap_or_default();
@@ -89,40 +113,26 @@ impl FrustaData {
         }
     }
 
-    /// Gives a plant its place in the tables. `None`, with an error in the log, when there is no room.
+    /// Gives a plant its place in the tables.
     pub(crate) fn attach(
         &mut self,
         id: AssetId<Skeleton>,
         skeleton: &Skeleton,
         shaping: Shaping,
         posed: bool,
-    ) -> Option<FrustaPlant> {
+    ) -> Result<FrustaPlant, NoRoomError> {
         let key = self.key(id);
         let (linked, first_shape) = self.share_skeleton(key, skeleton)?;
-        let (joints, bounds, own) = if posed {
-            let own = OwnPose::at_rest(&linked, shaping);
-            let joints = self.joints.allocate(own.records.len());
-            (joints, own.bounds, Some(own))
-        } else {
-            match self.share_stance(key, &linked, shaping) {
-                Some((joints, bounds)) => (Some(joints), bounds, None),
-                None => (None, Aabb::default(), None),
-            }
-        };
-        let slot = self.plants.allocate(1);
-        let (Some(joints), Some(slot)) = (joints, slot) else {
-            if let Some(slot) = slot {
-                self.plants.free(slot);
-            }
-            if let Some(joints) = joints {
-                match posed {
-                    true => self.joints.free(joints),
-                    false => self.release_stance(key, shaping),
-                }
-            }
+        let place = self.place(key, &linked, shaping, posed);
+        if place.is_err() {
             self.release_skeleton(key);
-            return None;
-        };
+        }
+        let Place {
+            slot,
+            joints,
+            bounds,
+            own,
+        } = place?;
         let record = PlantRecord {
             first_joint: joints.first(),
             first_shape,
@@ -132,7 +142,7 @@ impl FrustaData {
         self.plants.write(slot, 0, &[record]);
         self.drawn.0 += 1;
         self.drawn.1 += linked.segments;
-        Some(FrustaPlant {
+        Ok(FrustaPlant {
             skeleton: key,
             shaping,
             linked,
@@ -143,8 +153,43 @@ impl FrustaData {
         })
     }
 
+    /// A plant's row, and its joints or those that it shares; nothing is taken if either has no room.
+    fn place(
+        &mut self,
+        key: SkeletonKey,
+        linked: &LinkedSkeleton,
+        shaping: Shaping,
+        posed: bool,
+    ) -> Result<Place, NoRoomError> {
+        let slot = self.plants.allocate(1)?;
+        let stance = if posed {
+            let own = OwnPose::at_rest(linked, shaping);
+            let joints = self.joints.allocate(own.records.len());
+            joints.map(|joints| (joints, own.bounds, Some(own)))
+        } else {
+            let shared = self.share_stance(key, linked, shaping);
+            shared.map(|(joints, bounds)| (joints, bounds, None))
+        };
+        if stance.is_err() {
+            self.plants.free(slot);
+        }
+        let (joints, bounds, own) = stance?;
+        Ok(Place {
+            slot,
+            joints,
+            bounds,
+            own,
+        })
+    }
+
+    /// True once after some plant has given its place back.
+    pub(crate) fn take_gave_back(&mut self) -> bool {
+        core::mem::take(&mut self.gave_back)
+    }
+
     /// Gives back what a plant had.
     pub(crate) fn detach(&mut self, plant: &FrustaPlant) {
+        self.gave_back = true;
         self.drawn.0 -= 1;
         self.drawn.1 -= plant.linked.segments;
         self.plants.free(plant.slot);
@@ -159,10 +204,10 @@ impl FrustaData {
         &mut self,
         key: SkeletonKey,
         skeleton: &Skeleton,
-    ) -> Option<(Arc<LinkedSkeleton>, u32)> {
+    ) -> Result<(Arc<LinkedSkeleton>, u32), NoRoomError> {
         if let Some(shared) = self.skeletons.get_mut(&key) {
             shared.users += 1;
-            return Some((shared.linked.clone(), shared.shapes.first()));
+            return Ok((shared.linked.clone(), shared.shapes.first()));
         }
         let linked = Arc::new(LinkedSkeleton::new(skeleton));
         let shapes = self.shapes.allocate(linked.shapes.len())?;
@@ -173,7 +218,7 @@ impl FrustaData {
             users: 1,
         };
         self.skeletons.insert(key, shared);
-        Some((linked, shapes.first()))
+        Ok((linked, shapes.first()))
     }
 
     fn share_stance(
@@ -181,10 +226,10 @@ impl FrustaData {
         key: SkeletonKey,
         linked: &LinkedSkeleton,
         shaping: Shaping,
-    ) -> Option<(Rows, Aabb)> {
+    ) -> Result<(Rows, Aabb), NoRoomError> {
         if let Some(shared) = self.stances.get_mut(&(key, shaping)) {
             shared.users += 1;
-            return Some((shared.joints, shared.bounds));
+            return Ok((shared.joints, shared.bounds));
         }
         let stance = OwnPose::at_rest(linked, shaping);
         let joints = self.joints.allocate(stance.records.len())?;
@@ -195,7 +240,7 @@ impl FrustaData {
             users: 1,
         };
         self.stances.insert((key, shaping), shared);
-        Some((joints, stance.bounds))
+        Ok((joints, stance.bounds))
     }
 
     fn release_skeleton(&mut self, key: SkeletonKey) {

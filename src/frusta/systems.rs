@@ -29,7 +29,7 @@ pub(crate) fn follow_skeletons(
     }
 }
 
-/// A plant for which the tables have no room.
+/// A plant for which the tables have no room. It has been told of, and is tried again once some is given back.
 #[derive(Component)]
 pub(crate) struct NoRoom;
 
@@ -68,9 +68,12 @@ pub(crate) fn attach(
     mut data: ResMut<FrustaData>,
     mut unposed: RemovedComponents<PosedJoints>,
     changed: Query<Entity, (With<Skeleton3d>, Unattached)>,
+    waiting: Query<Entity, With<NoRoom>>,
     plants: Query<Attachable>,
 ) {
-    for entity in changed.iter().chain(unposed.read()) {
+    let there_is_room = data.take_gave_back();
+    let waiting_now = waiting.iter().filter(|_| there_is_room);
+    for entity in changed.iter().chain(unposed.read()).chain(waiting_now) {
         let Ok((skeleton3d, settings, material, posed, plant)) = plants.get(entity) else {
             continue;
         };
@@ -88,10 +91,14 @@ pub(crate) fn attach(
                 continue;
             }
         }
-        // One that found no room waits until some is given back: `NoRoom` keeps the error from being told every frame.
-        let Some(mut plant) = data.attach(id, skeleton, shaping, posed.is_some()) else {
-            commands.entity(entity).try_insert(NoRoom);
-            continue;
+        let mut plant = match data.attach(id, skeleton, shaping, posed.is_some()) {
+            Ok(plant) => plant,
+            Err(_) if waiting.contains(entity) => continue,
+            Err(no_room) => {
+                error!("{no_room}");
+                commands.entity(entity).try_insert(NoRoom);
+                continue;
+            }
         };
         // One that was bent before goes on where it was, instead of from rest.
         if let (Some(own), Some(posed)) = (&mut plant.own, posed)
@@ -105,12 +112,9 @@ pub(crate) fn attach(
         let bounds = plant.bounds;
         let mesh = meshes.with_segments(plant.linked.links.len(), &mut mesh_assets);
         // Inserting the new component drops the old one, which gives its rows back.
-        commands.entity(entity).try_insert((
-            Mesh3d(mesh),
-            MeshTag(plant.slot.first()),
-            plant,
-            bounds,
-        ));
+        let mut entity = commands.entity(entity);
+        entity.try_insert((Mesh3d(mesh), MeshTag(plant.slot.first()), plant, bounds));
+        entity.try_remove::<NoRoom>();
     }
 }
 
@@ -118,15 +122,10 @@ pub(crate) fn attach(
 pub(crate) fn detach(
     replaced: On<Discard, FrustaPlant>,
     plants: Query<&FrustaPlant>,
-    turned_away: Query<Entity, With<NoRoom>>,
     mut data: ResMut<FrustaData>,
-    mut commands: Commands,
 ) {
     if let Ok(plant) = plants.get(replaced.entity) {
         data.detach(plant);
-        for waiting in &turned_away {
-            commands.entity(waiting).try_remove::<NoRoom>();
-        }
     }
 }
 

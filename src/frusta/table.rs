@@ -2,9 +2,9 @@
 
 use core::ops::Range;
 
-use bevy::log::error;
 use bytemuck::Pod;
 use offset_allocator::{Allocation, Allocator};
+use thiserror::Error;
 
 /// Rows of one storage buffer.
 pub(crate) struct Table<T> {
@@ -14,6 +14,7 @@ pub(crate) struct Table<T> {
     /// Bytes saved since the changes were cleared, that may be spent on closing gaps between them.
     credit: usize,
     name: &'static str,
+    capacity: u32,
 }
 
 /// A range of rows that is in use.
@@ -30,6 +31,18 @@ impl Rows {
     }
 }
 
+/// A table has no room for a plant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "no room for {len} more {name} of plants on the GPU (the limit is {capacity}): the plant is not drawn. Despawn \
+     plants, let more of them share a skeleton and a pose, or use skeletons with fewer joints"
+)]
+pub(crate) struct NoRoomError {
+    len: usize,
+    name: &'static str,
+    capacity: u32,
+}
+
 /// Rows that a table has room for: as many as one storage buffer of 128 MiB, the least that every device
 /// offers, holds of the largest record.
 const CAPACITY: u32 = (128 << 20) / 64;
@@ -40,32 +53,35 @@ const ALLOWANCE: usize = 64;
 impl<T: Pod> Table<T> {
     /// An empty table; `name` is for messages.
     pub(crate) fn new(name: &'static str) -> Self {
+        Self::with_capacity(name, CAPACITY)
+    }
+
+    /// An empty table with room for so many rows.
+    pub(crate) fn with_capacity(name: &'static str, capacity: u32) -> Self {
         Self {
             rows: Vec::new(),
-            allocator: Allocator::new(CAPACITY),
+            allocator: Allocator::new(capacity),
             changed: Vec::new(),
             credit: 0,
             name,
+            capacity,
         }
     }
 
-    /// Takes `len` rows, at least one; `None`, with an error in the log, when there is no room left.
-    pub(crate) fn allocate(&mut self, len: usize) -> Option<Rows> {
-        let len = u32::try_from(len.max(1)).ok()?;
-        let Some(allocation) = self.allocator.allocate(len) else {
-            error!(
-                "no room for {len} more {} of plants on the GPU (the limit is {CAPACITY}): the plant is not \
-                 drawn. Despawn plants, let more of them share a skeleton and a pose, or use skeletons \
-                 with fewer joints",
-                self.name
-            );
-            return None;
+    /// Takes `len` rows, at least one.
+    pub(crate) fn allocate(&mut self, len: usize) -> Result<Rows, NoRoomError> {
+        let no_room = NoRoomError {
+            len,
+            name: self.name,
+            capacity: self.capacity,
         };
+        let len = u32::try_from(len.max(1)).map_err(|_| no_room)?;
+        let allocation = self.allocator.allocate(len).ok_or(no_room)?;
         let end = (allocation.offset + len) as usize;
         if self.rows.len() < end {
             self.rows.resize(end, T::zeroed());
         }
-        Some(Rows { allocation, len })
+        Ok(Rows { allocation, len })
     }
 
     /// Gives rows back.
@@ -172,7 +188,7 @@ mod tests {
     #[test]
     fn a_table_that_is_full_says_so_and_goes_on() {
         let mut table = Table::<u8>::new("rows");
-        assert!(table.allocate(CAPACITY as usize + 1).is_none());
-        assert!(table.allocate(1).is_some());
+        assert!(table.allocate(CAPACITY as usize + 1).is_err());
+        assert!(table.allocate(1).is_ok());
     }
 }

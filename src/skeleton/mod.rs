@@ -64,7 +64,8 @@
 //! `joint`, `skeleton` (what is promised), `order` (parents first), `builder`; `document` (RON), `swc`,
 //! `qsm` (CSV), with `settings`, `frame` (a file's coordinates), `text` (its encoding,
 //! lines and numbers) and `file` (which of them); `error`; `asset` (all that knows Bevy's assets). Then plants:
-//! `plant` (the component), `limb` (which child goes on), `pose` and `unfold` (two ways to bend).
+//! `plant` (the component), `limb` (which child goes on), `pose` and `unfold` (two ways to bend), `roll` (what a
+//! rotation does besides).
 
 mod asset;
 mod builder;
@@ -78,6 +79,7 @@ mod order;
 mod plant;
 mod pose;
 mod qsm;
+mod roll;
 mod settings;
 #[expect(
     clippy::module_inception,

@@ -4,9 +4,12 @@ use bevy::asset::prelude::AssetChanged;
 use bevy::math::Affine3A;
 use bevy::prelude::*;
 
-use super::{Joint, Skeleton, Skeleton3d, UnfoldSkeleton};
+use super::{Joint, Skeleton, Skeleton3d, UnfoldSkeleton, roll};
 
 /// Bends a plant by a rotation a joint: the cheap way, for crowds.
+///
+/// What a rotation turns about the segment's own axis bends nothing; it turns the segment's texture, and that of what
+/// continues it or grows on it.
 ///
 /// Write the rotations from any system before [`VerdureSystems::Pose`](crate::VerdureSystems::Pose); nothing is
 /// recomputed while this component is unchanged. Without effect on a plant that is unfolded
@@ -31,6 +34,9 @@ pub struct PosedJoints {
     pub(crate) positions: Vec<Vec3>,
     /// Frame of each segment: maps its rest frame, with the origin at the segment's start, to local space.
     pub(crate) frames: Vec<Affine3A>,
+    /// Turn of each segment about its own axis, within its parent segment's frame, as cosine and sine; empty where none
+    /// is turned.
+    rolls: Vec<Vec2>,
 }
 
 impl PosedJoints {
@@ -45,10 +51,18 @@ impl PosedJoints {
         self.frames.get(joint).copied()
     }
 
+    /// The turn of the segment that ends at `joint` about its own axis, within its parent segment's frame, by the right
+    /// hand: cosine and sine.
+    pub(crate) fn roll(&self, joint: usize) -> Option<[f32; 2]> {
+        self.rolls.get(joint).map(Vec2::to_array)
+    }
+
     /// Poses all joints. `local(i)` is the transform of segment `i` within its parent segment's frame.
     pub(crate) fn set(&mut self, joints: &[Joint], local: impl Fn(usize) -> Affine3A) {
         self.positions.resize(joints.len(), Vec3::ZERO);
         self.frames.resize(joints.len(), Affine3A::IDENTITY);
+        self.rolls.clear();
+        let mut is_root_moved = false;
         for (i, joint) in joints.iter().enumerate() {
             let Some(parent) = joint.parent else {
                 self.positions[i] = joint.position;
@@ -56,9 +70,31 @@ impl PosedJoints {
                 continue;
             };
             let parent = parent as usize;
-            let frame = self.frames[parent] * local(i);
+            let along = joint.position - joints[parent].position;
+            let local = local(i);
+            if let Some(roll) = roll::about(along, &local) {
+                self.rolls.resize(joints.len(), Vec2::X);
+                self.rolls[i] = roll;
+            }
+            let frame = self.frames[parent] * local;
             self.frames[i] = frame;
-            self.positions[i] = frame.transform_point3(joint.position - joints[parent].position);
+            self.positions[i] = frame.transform_point3(along);
+            is_root_moved |= joints[parent].parent.is_none()
+                && Vec3::from(frame.translation) != joints[parent].position;
+        }
+        if is_root_moved {
+            self.move_roots(joints);
+        }
+    }
+
+    /// Moves each root to where the first segment that begins there starts.
+    fn move_roots(&mut self, joints: &[Joint]) {
+        for (joint, frame) in joints.iter().zip(&self.frames).rev() {
+            if let Some(parent) = joint.parent
+                && joints[parent as usize].parent.is_none()
+            {
+                self.positions[parent as usize] = frame.translation.into();
+            }
         }
     }
 }

@@ -9,10 +9,11 @@ use super::{Joint, PosedJoints, Skeleton, Skeleton3d, SkeletonPose};
 
 /// Unfolds a plant into one child entity a segment ([`SkeletonSegment`]), once its skeleton is loaded.
 ///
-/// Segments are children along the hierarchy: each is a child of the segment that its own starts from, those at
-/// a root children of the plant. A segment's origin is its start, its axes are the plant's at rest, so its
-/// rest [`Transform`] is a translation alone. Rotate it and all that hangs on it bends along. Each has a
-/// [`Name`], `Segment 7`, so that animation clips can address it.
+/// Segments are children along the hierarchy: each is a child of the segment that its own starts from, those at a
+/// root children of the plant. A segment's origin is its start, its axes are the plant's at rest, so its rest
+/// [`Transform`] is a translation alone. Rotate it and all that hangs on it bends along; what a rotation turns about
+/// the segment's own axis turns its texture. Move it, and all that hangs on it moves along; a root moves with the
+/// first segment that begins there. Each has a [`Name`], `Segment 7`, so that animation clips can address it.
 ///
 /// When the skeleton is reloaded, segments move to their new places and keep their rotations and all that hangs on
 /// them; only if joints have come, gone or found other parents is the plant unfolded anew, and then what hangs on its
@@ -42,7 +43,7 @@ pub struct SkeletonSegment {
 
 /// The segments of an unfolded plant, by joint; roots, which end no segment, have none. A clone of a plant unfolds
 /// segments of its own.
-#[derive(Component, Clone, Debug, Default, PartialEq, Eq, Reflect)]
+#[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[component(clone_behavior = Ignore)]
 pub struct SegmentEntities {
@@ -50,6 +51,9 @@ pub struct SegmentEntities {
     entities: Vec<Option<Entity>>,
     /// The parents of the joints, by which a reload is told from another hierarchy.
     parents: Vec<Option<u32>>,
+    /// Where the segments sit in their parent segments' frames at rest, by which a reload is told from none: that an
+    /// asset was added is told as a change as well, a frame later.
+    rests: Vec<Vec3>,
 }
 
 impl SegmentEntities {
@@ -113,17 +117,19 @@ pub(crate) fn unfold(
             continue;
         }
         let parents: Vec<_> = joints.iter().map(|joint| joint.parent).collect();
+        let rest = |i| rest_translation(joints, i);
+        let rests: Vec<_> = (0..joints.len()).map(rest).collect();
         if let Some(mut unfolded) = unfolded {
             if unfolded.parents == parents {
                 unfolded.set_changed();
                 for (i, entity) in unfolded.iter() {
-                    if let Ok(segment) = segments.get_mut(entity) {
-                        let rest = rest_translation(joints, i);
-                        segment
-                            .map_unchanged(|segment| &mut segment.translation)
-                            .set_if_neq(rest);
+                    if rests[i] != unfolded.rests[i]
+                        && let Ok(mut segment) = segments.get_mut(entity)
+                    {
+                        segment.translation = rests[i];
                     }
                 }
+                unfolded.rests = rests;
                 continue;
             }
             despawn_segments(&mut commands, plant, &unfolded, &owners);
@@ -132,7 +138,6 @@ pub(crate) fn unfold(
         for (i, joint) in joints.iter().enumerate() {
             let entity = joint.parent.map(|parent| {
                 let above = entities[parent as usize].unwrap_or(plant);
-                let rest = rest_translation(joints, i);
                 commands
                     .spawn((
                         Name::new(format!("Segment {i}")),
@@ -140,16 +145,18 @@ pub(crate) fn unfold(
                             plant,
                             joint: i as u32,
                         },
-                        Transform::from_translation(rest),
+                        Transform::from_translation(rests[i]),
                         ChildOf(above),
                     ))
                     .id()
             });
             entities.push(entity);
         }
-        commands
-            .entity(plant)
-            .insert(SegmentEntities { entities, parents });
+        commands.entity(plant).insert(SegmentEntities {
+            entities,
+            parents,
+            rests,
+        });
     }
 }
 

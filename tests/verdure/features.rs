@@ -9,31 +9,12 @@ use bevy::prelude::*;
 use bevy::render::RenderApp;
 use bevy::render::render_phase::ViewBinnedRenderPhases;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
-use bevy_verdure::lab::reference::{
-    ReferenceEnds, ReferenceJoin, ReferenceScene, ReferenceSettings,
-};
 use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use crate::skeletons::{Dice, Growth, Roll, ball, double, reference_joints};
+use crate::skeletons::{Dice, Growth, Roll, TREE, ball, double, reference};
 
 const SIZE: UVec2 = UVec2::new(256, 192);
-
-const TREE: Growth = Growth {
-    joints: 12,
-    bend: 50.0,
-    taper: 1.4,
-    aspect: (0.1, 0.4),
-    branching: 0.3,
-};
-
-fn reference(skeleton: &Skeleton) -> ReferenceScene {
-    let settings = ReferenceSettings {
-        join: ReferenceJoin::Mitre,
-        ends: ReferenceEnds::Round,
-    };
-    ReferenceScene::new(&reference_joints(skeleton), settings)
-}
 
 fn shot(eye: Vec3, at: Vec3) -> Shot {
     Shot {
@@ -272,121 +253,6 @@ fn any_invertible_transform_is_drawn_as_the_reference_says() {
         assert!(wrong <= 25, "{wrong} pixels, all along edges");
         studio.uproot(plant);
     }
-}
-
-#[test]
-fn multisampled_edges_have_their_coverage() {
-    let skeleton = TREE.grow(&mut Dice::new(9));
-    let scene = reference(&skeleton);
-    let (centre, radius) = ball(&skeleton);
-    let mut studio = Studio::default();
-    let camera = studio.camera();
-    studio.world().entity_mut(camera).insert(Msaa::Sample4);
-    let plant = studio.plant(skeleton, Frusta::default(), Transform::IDENTITY);
-    let handle = studio
-        .world()
-        .get::<MeshMaterial3d<FrustaMaterial>>(plant)
-        .unwrap()
-        .0
-        .clone();
-    let mut materials = studio.world().resource_mut::<Assets<FrustaMaterial>>();
-    materials.get_mut(&handle).unwrap().base = StandardMaterial {
-        base_color: Color::WHITE,
-        unlit: true,
-        ..default()
-    };
-    let shot = shot(centre + Vec3::new(0.7, 0.3, 2.0) * radius, centre);
-    let picture = studio.photograph(&shot, Color::BLACK);
-    let is_hit = |x: f32, y: f32| {
-        let (origin, direction) = shot.ray(x, y);
-        scene.cast(origin, direction, f64::from(NEAR)).is_some()
-    };
-    // The standard places of four samples, in sixteenths of a pixel from its centre.
-    let samples = [(-2.0, -6.0), (6.0, -2.0), (-6.0, 2.0), (2.0, 6.0)];
-    let (mut edges, mut error, mut other) = (0, 0.0, 0);
-    for y in 0..SIZE.y {
-        for x in 0..SIZE.x {
-            let grid = (0..64).filter(|i| {
-                let (dx, dy) = ((i % 8) as f32, (i / 8) as f32);
-                is_hit(x as f32 + (dx + 0.5) / 8.0, y as f32 + (dy + 0.5) / 8.0)
-            });
-            let area = grid.count() as f32 / 64.0;
-            let sampled = samples
-                .iter()
-                .filter(|(dx, dy)| is_hit(x as f32 + 0.5 + dx / 16.0, y as f32 + 0.5 + dy / 16.0));
-            let expected = sampled.count() as f32 / 4.0;
-            let srgb = f32::from(picture.rgb(x, y)[0]) / 255.0;
-            let coverage = Color::srgb(srgb, 0.0, 0.0).to_linear().red;
-            // The picture holds 8 bits: half a step is at most 0.005 of linear light.
-            let off = (coverage - expected).abs();
-            assert!(
-                off <= 0.25 + 0.005,
-                "{x},{y}: {coverage} instead of {expected}"
-            );
-            other += usize::from(off > 0.005);
-            if area > 0.0 && area < 1.0 {
-                edges += 1;
-                error += (coverage - area).abs();
-            }
-        }
-    }
-    let mean = error / edges as f32;
-    println!(
-        "{edges} edge pixels: {other} are a sample off, mean error against the area is {mean}"
-    );
-    assert!(edges > 500);
-    // A sample off is one whose place an edge crosses within roundings.
-    assert!(other * 100 <= edges, "{other} of {edges}");
-    assert!(mean < 0.125, "on average within half a sample: {mean}");
-}
-
-#[test]
-fn no_far_wall_shows_through_the_cuts_of_multisampled_frusta() {
-    // Many cuts across a limb lit from the eye: only the inside of its far wall is dark.
-    let mut limb = Skeleton::builder();
-    let mut last = limb.root(Vec3::new(0.0, -1.0, 0.0), 0.12);
-    for i in 1..=60 {
-        let h = i as f32 / 30.0 - 1.0;
-        last = limb.joint(last, Vec3::new(0.15 * (h * 9.0).sin(), h, 0.0), 0.12);
-    }
-    let mut studio = Studio::default();
-    let shot = shot(Vec3::new(0.3, 0.7, 3.0), Vec3::ZERO);
-    studio.world().spawn((
-        DirectionalLight {
-            illuminance: 8_000.0,
-            ..default()
-        },
-        shot.transform(),
-    ));
-    let skeleton = limb.build().unwrap();
-    studio.plant(skeleton, Frusta::default(), Transform::IDENTITY);
-    let figures = studio.measure(&shot);
-    let camera = studio.camera();
-    let plain = studio.photograph(&shot, Color::BLACK);
-    studio.world().entity_mut(camera).insert(Msaa::Sample4);
-    let smooth = studio.photograph(&shot, Color::BLACK);
-    let forward = *shot.transform().forward();
-    let mut inside = 0;
-    for y in 1..SIZE.y - 1 {
-        for x in 1..SIZE.x - 1 {
-            // Faces the eye, and so do its neighbours.
-            let faces = (0..9).all(|i| {
-                let seen = figures.get(x + i % 3 - 1, y + i / 3 - 1);
-                seen.is_some_and(|seen| seen.normal.dot(forward) < -0.6)
-            });
-            if faces {
-                inside += 1;
-                // Across a cut samples are shaded apart, but all from the front. One of four that shows the far wall
-                // takes a quarter of the light off, and so an eighth of what its encoding in 8 bits holds.
-                let (plain, smooth) = (plain.rgb(x, y)[1], smooth.rgb(x, y)[1]);
-                assert!(
-                    plain.abs_diff(smooth) <= plain / 16,
-                    "{x},{y}: {smooth} instead of {plain}"
-                );
-            }
-        }
-    }
-    assert!(inside > 1000, "{inside}");
 }
 
 #[test]

@@ -4,15 +4,15 @@ use bevy::prelude::*;
 use bevy_verdure::lab::Studio;
 use bevy_verdure::prelude::*;
 
+use crate::skeletons;
+
 /// A straight limb of `segments` segments, planted.
 fn limb(studio: &mut Studio, segments: usize) -> Entity {
-    let mut limb = Skeleton::builder();
-    let mut last = limb.root(Vec3::ZERO, 0.2);
-    for i in 1..=segments {
-        last = limb.joint(last, Vec3::Y * (i as f32 * 0.5), 0.2);
-    }
-    let limb = limb.build().unwrap();
-    studio.plant(limb, Frusta::default(), Transform::IDENTITY)
+    studio.plant(
+        skeletons::limb(segments),
+        Frusta::default(),
+        Transform::IDENTITY,
+    )
 }
 
 fn tip(studio: &mut Studio, plant: Entity) -> Option<Vec3> {

@@ -1,7 +1,9 @@
 //! Random skeletons, the same on every machine.
 
 use bevy::math::{DVec3, Quat, Vec3};
-use bevy_verdure::lab::reference::ReferenceJoint;
+use bevy_verdure::lab::reference::{
+    ReferenceEnds, ReferenceJoin, ReferenceJoint, ReferenceScene, ReferenceSettings,
+};
 use bevy_verdure::prelude::*;
 
 pub use bevy_verdure::plants::Dice;
@@ -71,6 +73,25 @@ impl Growth {
     }
 }
 
+/// A small tree: mild bends, a branch or two.
+pub const TREE: Growth = Growth {
+    joints: 12,
+    bend: 50.0,
+    taper: 1.4,
+    aspect: (0.1, 0.4),
+    branching: 0.3,
+};
+
+/// An upright limb of `segments` segments of half a metre.
+pub fn limb(segments: usize) -> Skeleton {
+    let mut limb = Skeleton::builder();
+    let mut last = limb.root(Vec3::ZERO, 0.2);
+    for i in 1..=segments {
+        last = limb.joint(last, Vec3::Y * (i as f32 * 0.5), 0.2);
+    }
+    limb.build().expect("a straight limb is valid")
+}
+
 /// The same joints for the reference.
 pub fn reference_joints(skeleton: &Skeleton) -> Vec<ReferenceJoint> {
     let joints = skeleton.joints().iter();
@@ -81,6 +102,15 @@ pub fn reference_joints(skeleton: &Skeleton) -> Vec<ReferenceJoint> {
             parent: joint.parent.map(|parent| parent as usize),
         })
         .collect()
+}
+
+/// What a plant with default settings looks like to the reference.
+pub fn reference(skeleton: &Skeleton) -> ReferenceScene {
+    let settings = ReferenceSettings {
+        join: ReferenceJoin::Mitre,
+        ends: ReferenceEnds::Round,
+    };
+    ReferenceScene::new(&reference_joints(skeleton), settings)
 }
 
 /// Middle and radius of a ball round a skeleton.

@@ -330,7 +330,7 @@ pub fn align_shells(
 ) {
     let mut frusta: Vec<_> = shells.iter().map(|shell| shell.frustum).collect();
     if continuous {
-        align_turned(links, &mut frusta, first);
+        align_turned(links, &mut frusta, first, |_| None);
     } else {
         align(links, &mut frusta, first);
     }

@@ -100,16 +100,35 @@ pub fn surface_point(
 /// # Panics
 /// If the slices differ in length.
 pub fn align(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Vec3) {
-    align_by(links, frusta, first, carry_over);
+    align_rolled(links, frusta, first, |_| None);
 }
 
-/// The same, but references are turned with the axis at all joins, as relief wants them: its u is in line all round a
-/// cut ([`skew`](super::shell::skew)).
+/// The same for segments that are turned about their own axes: `roll(i)`, cosine and sine by the right hand, is added to
+/// what is carried over to segment `i`.
 ///
 /// # Panics
 /// If the slices differ in length.
-pub fn align_turned(links: &[Link], frusta: &mut [Frustum], first: impl Fn(usize) -> Vec3) {
-    align_by(links, frusta, first, |first, twist, second| {
+pub fn align_rolled(
+    links: &[Link],
+    frusta: &mut [Frustum],
+    first: impl Fn(usize) -> Vec3,
+    roll: impl Fn(usize) -> Option<[Real; 2]>,
+) {
+    align_by(links, frusta, first, roll, carry_over);
+}
+
+/// As [`align_rolled`], but references are turned with the axis at all joins, as relief wants them: its u is in line
+/// all round a cut ([`skew`](super::shell::skew)).
+///
+/// # Panics
+/// If the slices differ in length.
+pub fn align_turned(
+    links: &[Link],
+    frusta: &mut [Frustum],
+    first: impl Fn(usize) -> Vec3,
+    roll: impl Fn(usize) -> Option<[Real; 2]>,
+) {
+    align_by(links, frusta, first, roll, |first, twist, second| {
         turn_over(at_end(first, twist), first, second)
     });
 }
@@ -119,6 +138,7 @@ fn align_by(
     links: &[Link],
     frusta: &mut [Frustum],
     first: impl Fn(usize) -> Vec3,
+    roll: impl Fn(usize) -> Option<[Real; 2]>,
     carry: impl Fn(&Frustum, Real, &Frustum) -> Vec3,
 ) {
     assert_eq!(links.len(), frusta.len());
@@ -128,15 +148,20 @@ fn align_by(
             continue;
         }
         let parent = parent as usize;
-        let wish = if links[parent].parent == NONE {
+        let begins = links[parent].parent == NONE;
+        let wish = if begins {
             first(i)
         } else {
             carry(&frusta[parent], links[parent].twist, &frusta[i])
         };
         let axis = frusta[i].axis;
-        frusta[i].reference = (wish - axis * wish.dot(axis))
+        let mut reference = (wish - axis * wish.dot(axis))
             .try_normalize()
             .unwrap_or_else(|| axis.any_orthonormal_vector());
+        if !begins && let Some([cos, sin]) = roll(i) {
+            reference = reference * cos + axis.cross(reference) * sin;
+        }
+        frusta[i].reference = reference;
     }
 }
 

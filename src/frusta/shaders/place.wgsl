@@ -91,8 +91,11 @@ fn place_corner(in: Corner) -> Varying {
     // In a mirrored plant the other side of the bounds faces out.
     let corner = select(in.corner ^ 1u, in.corner, place.handedness > 0.0) & 7u;
     var clip = local_to_clip(place, frustum.base + bounds_corner(b, corner));
-    // Only what is seen through the bounds may be clipped, not the bounds: their depth is never used.
-    clip.z = max(clip.z, 0.0);
+    // Only what is seen through the bounds may be clipped, not the bounds: their depth is never used. Behind the eye,
+    // another z would let the near plane cut an edge elsewhere where that plane is oblique.
+    if clip.w > 0.0 {
+        clip.z = max(clip.z, 0.0);
+    }
     if is_orthographic() {
         clip.z = min(clip.z, 1.0);
     }
