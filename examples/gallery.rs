@@ -25,6 +25,7 @@ use bevy_verdure::lab::{Size, parse_size};
 use clap::{Parser, ValueEnum};
 use image::{RgbImage, imageops};
 
+use planting::Drawn;
 use scene::Scene;
 
 /// Pictures a row.
@@ -53,7 +54,7 @@ fn draw(args: &Args) -> Result<(), String> {
     let UVec2 { x, y } = args.size;
     let mut sheet = RgbImage::new(x * COLUMNS, y * (scenes.len() as u32).div_ceil(COLUMNS));
     for (i, scene) in (0..).zip(scenes) {
-        let picture = common::picture(args.size, |app| scene.stage(args.seed, false, app))?;
+        let picture = common::picture(args.size, |app| scene.stage(args.seed, Drawn::Relief, app))?;
         let picture = RgbImage::from_raw(x, y, picture.rgb_bytes())
             .ok_or("a picture of another size came back")?;
         let (column, row) = (i % COLUMNS, i / COLUMNS);

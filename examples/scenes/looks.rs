@@ -1,12 +1,15 @@
-//! What each kind of surface looks like: the stored maps of `assets/plants`.
+//! What each kind of surface looks like: the stored maps of `assets/plants`, with relief or with normal maps of it.
 
 use std::f32::consts::TAU;
 use std::path::{Path, PathBuf};
 
+use bevy::asset::RenderAssetUsages;
 use bevy::math::Affine2;
 use bevy::prelude::*;
+use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 use bevy_verdure::plants::Surface;
 use bevy_verdure::plants::maps::{Finish, SURFACES};
+use bevy_verdure::prelude::*;
 
 use super::common::texture::texture;
 
@@ -30,6 +33,36 @@ pub fn look(surface: Surface, images: &mut Assets<Image>) -> StandardMaterial {
         }
     }
     material
+}
+
+/// The material of a kind of surface with relief, if it has any, from what [`look`] made.
+pub fn relief(
+    surface: Surface,
+    look: &StandardMaterial,
+    images: &mut Assets<Image>,
+) -> Option<FrustaMaterial> {
+    let thickness = Finish::of(surface).thickness?;
+    let map = open(surface, "height").map_err(|error| error!("{error}"));
+    let map = map.ok()?.into_luma8();
+    let extent = Extent3d {
+        width: map.width(),
+        height: map.height(),
+        depth_or_array_layers: 1,
+    };
+    let map = images.add(Image::new(
+        extent,
+        TextureDimension::D2,
+        map.into_raw(),
+        TextureFormat::R8Unorm,
+        RenderAssetUsages::MAIN_WORLD,
+    ));
+    let base = StandardMaterial {
+        normal_map_texture: None,
+        ..look.clone()
+    };
+    // A joint's radius is that of the outer frustum.
+    let relief = Relief::new(map, ReliefThickness::Relative(thickness)).with_level(1.0);
+    Some(relief_material(base, relief))
 }
 
 fn file(surface: Surface, map: &str) -> PathBuf {

@@ -5,7 +5,7 @@
 //! cargo run --example scenes -- elm --seed 3 --headless --frames 1 --out out
 //! ```
 //!
-//! M switches between frusta and polygons of the same surface; `--polygons` starts with these.
+//! M goes from relief to polygons of the same surface, to smooth frusta, and back; `--draw` names the first.
 
 #[path = "../dancing_cacti/cactus.rs"]
 mod cactus;
@@ -22,6 +22,7 @@ mod scene;
 use bevy_verdure::lab::CommonArgs;
 use clap::Parser;
 
+use planting::Drawn;
 use scene::Scene;
 
 /// Shows one of the paper's scenes.
@@ -33,9 +34,9 @@ struct Args {
     /// What the plants grow from.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Draw polygons instead of frusta.
-    #[arg(long)]
-    polygons: bool,
+    /// What is drawn at first.
+    #[arg(long, value_enum, default_value = "relief")]
+    draw: Drawn,
     #[command(flatten)]
     common: CommonArgs,
 }
@@ -43,7 +44,7 @@ struct Args {
 fn main() -> std::process::ExitCode {
     let args = Args::parse();
     let run = common::run(&args.scene.name(), &args.common, |app| {
-        args.scene.stage(args.seed, args.polygons, app);
+        args.scene.stage(args.seed, args.draw, app);
     });
     common::exit(run)
 }

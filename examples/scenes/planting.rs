@@ -1,10 +1,11 @@
-//! A planting as entities: one a part and place, twice over, as frusta and as polygons.
+//! A planting as entities: one a part and place, each as smooth frusta, as frusta with relief, and as polygons.
 
 use bevy::prelude::*;
 use bevy_verdure::plants::Planting;
 use bevy_verdure::prelude::*;
+use clap::ValueEnum;
 
-use super::looks::look;
+use super::looks::{look, relief};
 
 /// Subdivisions of the polygons.
 const SUBDIVISIONS: u32 = 1;
@@ -13,30 +14,30 @@ const SUBDIVISIONS: u32 = 1;
 pub struct Planted {
     /// What stands where.
     pub planting: Planting,
-    /// Starts with polygons.
-    pub polygons: bool,
+    /// What is drawn at first.
+    pub drawn: Drawn,
 }
 
 /// What is drawn.
-#[derive(Resource, Clone, Copy, PartialEq)]
-enum Drawn {
-    Frusta,
+#[derive(Resource, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Drawn {
+    /// Smooth frusta with normal maps.
+    Rays,
+    /// Frusta with relief.
+    Relief,
+    /// Smooth polygons with normal maps.
     Polygons,
 }
 
 impl Plugin for Planted {
     fn build(&self, app: &mut App) {
         let planting = self.planting.clone();
-        app.insert_resource(if self.polygons {
-            Drawn::Polygons
-        } else {
-            Drawn::Frusta
-        })
-        .add_systems(Startup, move |world: &mut World| plant(world, &planting))
-        .add_systems(
-            Update,
-            (switch, draw.run_if(resource_changed::<Drawn>)).chain(),
-        );
+        app.insert_resource(self.drawn)
+            .add_systems(Startup, move |world: &mut World| plant(world, &planting))
+            .add_systems(
+                Update,
+                (switch, draw.run_if(resource_changed::<Drawn>)).chain(),
+            );
     }
 }
 
@@ -50,9 +51,17 @@ fn plant(world: &mut World, planting: &Planting) {
                 Ends::Round
             };
             let look = look(part.kind, &mut world.resource_mut::<Assets<Image>>());
-            let frusta = world
-                .resource_mut::<Assets<FrustaMaterial>>()
-                .add(frusta_material(look.clone()));
+            let carved = relief(part.kind, &look, &mut world.resource_mut::<Assets<Image>>());
+            let mut materials = world.resource_mut::<Assets<FrustaMaterial>>();
+            let rays = materials.add(frusta_material(look.clone()));
+            // What has no relief is one plant for both.
+            let frusta = match carved {
+                Some(carved) => vec![
+                    (DrawnAs(vec![Drawn::Rays]), rays),
+                    (DrawnAs(vec![Drawn::Relief]), materials.add(carved)),
+                ],
+                None => vec![(DrawnAs(vec![Drawn::Rays, Drawn::Relief]), rays)],
+            };
             let standard = world.resource_mut::<Assets<StandardMaterial>>().add(look);
             let settings = MeshSettings {
                 subdivisions: SUBDIVISIONS,
@@ -75,15 +84,17 @@ fn plant(world: &mut World, planting: &Planting) {
                     rotation: Quat::from_rotation_y(place.yaw),
                     scale: Vec3::splat(place.scale),
                 };
+                for (drawn_as, material) in &frusta {
+                    world.spawn((
+                        drawn_as.clone(),
+                        Skeleton3d(skeleton.clone()),
+                        Frusta::default().with_ends(ends),
+                        MeshMaterial3d(material.clone()),
+                        transform,
+                    ));
+                }
                 world.spawn((
-                    Drawn::Frusta.mark(),
-                    Skeleton3d(skeleton.clone()),
-                    Frusta::default().with_ends(ends),
-                    MeshMaterial3d(frusta.clone()),
-                    transform,
-                ));
-                world.spawn((
-                    Drawn::Polygons.mark(),
+                    DrawnAs(vec![Drawn::Polygons]),
                     Mesh3d(mesh.clone()),
                     MeshMaterial3d(standard.clone()),
                     transform,
@@ -98,28 +109,23 @@ fn polygons(skeleton: &Skeleton, settings: &MeshSettings) -> Result<Mesh> {
     Ok(skeleton.to_mesh(settings)?.with_generated_tangents()?)
 }
 
-/// Which of both an entity is.
-#[derive(Component)]
-struct DrawnAs(Drawn);
-
-impl Drawn {
-    fn mark(self) -> DrawnAs {
-        DrawnAs(self)
-    }
-}
+/// When an entity is shown.
+#[derive(Component, Clone)]
+struct DrawnAs(Vec<Drawn>);
 
 fn switch(keys: Res<ButtonInput<KeyCode>>, mut drawn: ResMut<Drawn>) {
     if keys.just_pressed(KeyCode::KeyM) {
         *drawn = match *drawn {
-            Drawn::Frusta => Drawn::Polygons,
-            Drawn::Polygons => Drawn::Frusta,
+            Drawn::Rays => Drawn::Relief,
+            Drawn::Relief => Drawn::Polygons,
+            Drawn::Polygons => Drawn::Rays,
         };
     }
 }
 
 fn draw(drawn: Res<Drawn>, mut all: Query<(&DrawnAs, &mut Visibility)>) {
     for (DrawnAs(own), mut visibility) in &mut all {
-        *visibility = if *own == *drawn {
+        *visibility = if own.contains(&drawn) {
             Visibility::Inherited
         } else {
             Visibility::Hidden

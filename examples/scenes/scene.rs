@@ -8,7 +8,7 @@ use clap::ValueEnum;
 
 use super::common::stage::Stage;
 use super::crowd::crowd;
-use super::planting::Planted;
+use super::planting::{Drawn, Planted};
 
 /// A scene of the paper's Table 1.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -44,14 +44,14 @@ impl Scene {
     /// Where the eye stands, and what it looks at.
     fn view(self) -> (Vec3, Vec3) {
         let (eye, at) = match self {
-            Self::Coconut => ([7.0, 3.6, 13.0], [0.0, 4.3, 0.0]),
-            Self::Pine => ([3.6, 2.6, 9.0], [0.0, 2.9, 0.0]),
-            Self::Elm => ([8.0, 4.2, 20.0], [0.0, 5.4, 0.0]),
+            Self::Coconut => ([8.4, 4.2, 15.6], [0.0, 4.6, 0.0]),
+            Self::Pine => ([4.3, 3.0, 10.8], [0.0, 3.3, 0.0]),
+            Self::Elm => ([9.6, 5.0, 24.0], [0.0, 6.2, 0.0]),
             Self::Aloe => ([0.5, 0.62, 1.25], [0.0, 0.24, 0.0]),
             Self::Saguaro => ([2.5, 2.6, 7.5], [0.0, 2.4, 0.0]),
-            Self::Well => ([1.8, 2.1, 4.2], [0.0, 1.05, 0.0]),
+            Self::Well => ([2.1, 2.4, 4.9], [0.0, 1.25, 0.0]),
             Self::Desert => ([3.0, 4.5, 17.0], [0.0, 1.4, 0.0]),
-            Self::Oasis => ([6.0, 4.2, 18.0], [0.0, 4.0, 0.0]),
+            Self::Oasis => ([7.0, 4.8, 21.0], [0.0, 4.3, 0.0]),
             Self::DancingCacti => ([-5.5, 3.4, 14.0], [0.0, 0.75, 1.5]),
         };
         (eye.into(), at.into())
@@ -64,7 +64,7 @@ impl Scene {
     }
 
     /// Sets the scene up in an app.
-    pub fn stage(self, seed: u64, polygons: bool, app: &mut App) {
+    pub fn stage(self, seed: u64, drawn: Drawn, app: &mut App) {
         let (eye, at) = self.view();
         app.add_plugins(Stage {
             eye,
@@ -78,7 +78,7 @@ impl Scene {
         } else {
             app.add_plugins(Planted {
                 planting: self.grow(seed),
-                polygons,
+                drawn,
             });
         }
     }

@@ -12,9 +12,9 @@ use bevy_verdure::lab::reference::relief::HeightImage;
 use bevy_verdure::prelude::*;
 
 /// Pixels of the test's maps, along u and along v.
-const MAP: UVec2 = UVec2::new(48, 32);
+const MAP: UVec2 = UVec2::new(24, 16);
 
-/// Bumps that no mip level of the pictures below blurs.
+/// Bumps. In the pictures below a pixel of the map covers more than one of the screen, so that no mip level blurs them.
 fn bumps() -> HeightImage {
     HeightImage::from_fn(MAP.x as usize, MAP.y as usize, |u, v| {
         let (u, v) = (u as f32, v as f32);
