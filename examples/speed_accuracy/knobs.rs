@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use bevy::prelude::*;
-use bevy_verdure::frusta::{ReliefMarch, ReliefSteps, ReliefV};
+use bevy_verdure::frusta::{ReliefSteps, ReliefV};
 use bevy_verdure::lab::charts::{Axis, Chart, Point, Series};
 use bevy_verdure::lab::rivals::{Exhibit, Judge, March, Rival};
 use bevy_verdure::lab::{GeometryError, Timing};
@@ -78,21 +78,6 @@ fn knobs(plan: &Plan) -> Vec<Knob> {
                 ("interpolated", ReliefV::Interpolated),
             ]
             .map(|(name, v)| (name.into(), march(March { v, ..default })))
-            .into(),
-        ),
-        knob(
-            "march",
-            [
-                ("uniform", ReliefMarch::Uniform),
-                ("leaping", ReliefMarch::Leaping),
-            ]
-            .map(|(name, kind)| {
-                let value = March {
-                    march: kind,
-                    ..default
-                };
-                (name.into(), march(value))
-            })
             .into(),
         ),
         knob(

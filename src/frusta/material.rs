@@ -19,7 +19,7 @@ use bevy::shader::{ShaderDefVal, ShaderRef};
 
 use super::buffers::FrustaBuffers;
 use super::mesh::ATTRIBUTE_CORNER;
-use super::relief::{Relief, ReliefBindings, ReliefMarch, ReliefTextures, ReliefV};
+use super::relief::{Relief, ReliefBindings, ReliefTextures, ReliefV};
 
 /// The material of plants that are drawn by frusta: all of [`StandardMaterial`] that a surface with one pair of
 /// texture coordinates can have, on a ray-cast surface.
@@ -80,18 +80,13 @@ pub struct FrustaKey {
 /// Bits of a key's relief.
 const RELIEF: u8 = 1;
 const RELIEF_INTERPOLATED_V: u8 = 2;
-const RELIEF_LEAPING: u8 = 4;
-const RELIEF_SELF_SHADOW: u8 = 8;
 
 fn relief_bits(relief: &Relief) -> u8 {
     let bit = |bit, set| if set { bit } else { 0 };
     if relief.shell().is_none() {
         return 0;
     }
-    RELIEF
-        | bit(RELIEF_INTERPOLATED_V, relief.v == ReliefV::Interpolated)
-        | bit(RELIEF_LEAPING, relief.march == ReliefMarch::Leaping)
-        | bit(RELIEF_SELF_SHADOW, relief.self_shadow)
+    RELIEF | bit(RELIEF_INTERPOLATED_V, relief.v == ReliefV::Interpolated)
 }
 
 /// Bindings of the extension; [`StandardMaterial`] uses those below.
@@ -244,8 +239,6 @@ impl MaterialExtension for FrustaExtension {
         for (bit, def) in [
             (RELIEF, "FRUSTA_RELIEF"),
             (RELIEF_INTERPOLATED_V, "FRUSTA_INTERPOLATED_V"),
-            (RELIEF_LEAPING, "FRUSTA_LEAPING"),
-            (RELIEF_SELF_SHADOW, "FRUSTA_SELF_SHADOW"),
         ] {
             if relief & bit != 0 {
                 defs.push(def.into());

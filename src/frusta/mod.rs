@@ -23,7 +23,8 @@
 //! they are in `math/`, whose files are compiled for `f32` as [`single`] and for `f64` as [`double`].
 //!
 //! The same surface in triangles, for collision, export and comparison, is
-//! [`Skeleton::to_mesh`](crate::skeleton::Skeleton::to_mesh) (`polygons/`).
+//! [`Skeleton::to_mesh`](crate::skeleton::Skeleton::to_mesh) (`polygons/`); of a plant that bends,
+//! [`Skeleton::to_skinned_mesh`](crate::skeleton::Skeleton::to_skinned_mesh). Detail in true relief is told in [`relief`].
 //!
 //! # Where this departs from the paper
 //! * Cones carry a signed slope instead of a height, so cylinders are no special case (Equations 1, 2).
@@ -62,6 +63,7 @@ mod table;
 #[cfg(test)]
 mod tests;
 mod to_mesh;
+mod to_skinned_mesh;
 
 use bevy::asset::AssetEventSystems;
 use bevy::camera::visibility::NoAutoAabb;
@@ -78,8 +80,9 @@ pub use material::{
     FrustaExtension, FrustaKey, FrustaMaterial, FrustaOutput, ShadingNormals, frusta_material,
 };
 pub use polygons::{MeshError, MeshParts, MeshRelief, MeshSettings};
-pub use relief::{Relief, ReliefMarch, ReliefSteps, ReliefThickness, ReliefV, relief_material};
+pub use relief::{Relief, ReliefSteps, ReliefThickness, ReliefV, relief_material};
 pub use stats::FrustaStats;
+pub use to_skinned_mesh::MAX_SKINNED_SEGMENTS;
 
 use crate::VerdureSystems;
 use crate::skeleton::Skeleton3d;

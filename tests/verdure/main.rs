@@ -16,6 +16,7 @@ mod roll;
 mod segments;
 mod skeleton_files;
 mod skeletons;
+mod skinned;
 mod twins;
 mod view;
 mod views;

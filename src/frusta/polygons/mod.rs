@@ -109,6 +109,14 @@ pub enum MeshError {
         /// The setting.
         subdivisions: u32,
     },
+    /// A vertex names the joints that it moves with by 16 bits.
+    #[error(
+        "{segments} segments are more than the 65536 joints of a skin: divide the skeleton, or bend it as frusta"
+    )]
+    TooManyJoints {
+        /// How many segments the skeleton has.
+        segments: usize,
+    },
 }
 
 /// Makes polygons of a posed skeleton.

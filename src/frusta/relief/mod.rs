@@ -19,4 +19,4 @@ mod settings;
 pub(crate) use gpu::{ReliefBindings, ReliefTextures, upload};
 pub(crate) use library::{ReliefMaps, follow_maps};
 pub use map::{ReliefMap, ReliefMapError};
-pub use settings::{Relief, ReliefMarch, ReliefSteps, ReliefThickness, ReliefV, relief_material};
+pub use settings::{Relief, ReliefSteps, ReliefThickness, ReliefV, relief_material};

@@ -41,11 +41,6 @@ pub struct Relief {
     pub bisections: u32,
     /// How v is found along a ray.
     pub v: ReliefV,
-    /// How a ray is marched.
-    pub march: ReliefMarch,
-    /// Whether the relief shadows itself from the first directional light by a short march towards it, besides what
-    /// shadow maps do. For ridges finer than a pixel of the shadow map; in forward rendering only.
-    pub self_shadow: bool,
 }
 
 impl Relief {
@@ -58,8 +53,6 @@ impl Relief {
             steps: ReliefSteps::default(),
             bisections: 4,
             v: ReliefV::default(),
-            march: ReliefMarch::default(),
-            self_shadow: false,
         }
     }
 
@@ -122,17 +115,6 @@ pub enum ReliefV {
     /// are parallel; where they are not, relief swims as the eye moves, and segments that bend by more than 45° are
     /// marched exactly all the same.
     Interpolated,
-}
-
-/// How a ray is marched through the shell.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
-pub enum ReliefMarch {
-    /// In equal steps (§3).
-    #[default]
-    Uniform,
-    /// In steps as long as the map is known to hold no higher point.
-    Leaping,
 }
 
 /// A [`FrustaMaterial`] of a [`StandardMaterial`], or of what becomes one, with relief.

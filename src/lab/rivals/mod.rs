@@ -25,7 +25,7 @@ pub use judge::{AS_GOOD, Flips, Judge, Match, SUPERSAMPLING, aim};
 pub use view::fitting;
 pub use weight::Weight;
 
-use crate::frusta::{Relief, ReliefMarch, ReliefSteps, ReliefV};
+use crate::frusta::{Relief, ReliefSteps, ReliefV};
 
 /// How relief is marched: the settings of [`Relief`] that trade error for time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,8 +36,6 @@ pub struct March {
     pub bisections: u32,
     /// How v is found.
     pub v: ReliefV,
-    /// How a ray is marched.
-    pub march: ReliefMarch,
 }
 
 impl March {
@@ -46,7 +44,6 @@ impl March {
         steps: ReliefSteps::Fixed(256),
         bisections: 10,
         v: ReliefV::Exact,
-        march: ReliefMarch::Uniform,
     };
 
     /// Sets a relief's march.
@@ -54,7 +51,6 @@ impl March {
         relief.steps = self.steps;
         relief.bisections = self.bisections;
         relief.v = self.v;
-        relief.march = self.march;
     }
 }
 
@@ -69,7 +65,6 @@ impl Default for March {
             steps: relief.steps,
             bisections: relief.bisections,
             v: relief.v,
-            march: relief.march,
         }
     }
 }

@@ -20,7 +20,7 @@ struct Tally {
     hits: usize,
     /// A wrong hit, miss or segment.
     wrong: usize,
-    /// Depth off by more than a hundredth of the shell.
+    /// Off, across the surface, by more than a hundredth of the shell.
     deep: usize,
     worst: f64,
     error: f64,
@@ -37,7 +37,9 @@ fn compare(studio: &mut Studio, scene: &ReliefScene, shot: &Shot) -> Tally {
             tally.hits += usize::from(expected.is_some());
             match (expected, seen) {
                 (Some(hit), Some(seen)) if hit.segment as u32 == seen.segment => {
-                    let off = (f64::from(seen.depth) - hit.t).abs() * direction.length();
+                    // Along a grazing ray, what is off across the surface is off by far more.
+                    let off =
+                        (f64::from(seen.depth) - hit.t).abs() * direction.dot(hit.normal).abs();
                     tally.worst = tally.worst.max(off);
                     tally.error += off;
                     tally.deep += usize::from(off > 0.01 * f64::from(THICKNESS));
@@ -122,7 +124,7 @@ fn relief_is_where_the_reference_marches_to() {
             // Rays that graze a bump are decided by the last bit of the map's filter, and 256 steps may pass between
             // what 4,096 find: along outlines, which a limb of these pictures has about 1,000 pixels of.
             assert!(tally.wrong * 200 <= tally.hits, "{tally:?}");
-            assert!(tally.deep * 50 <= tally.hits, "{tally:?}");
+            assert!(tally.deep * 200 <= tally.hits, "{tally:?}");
         }
     }
 }
