@@ -145,7 +145,11 @@ fn uniform(relief: &Relief, texture: &ReliefTexture) -> ReliefUniform {
             ReliefSteps::Auto => 0,
             ReliefSteps::Fixed(steps) => steps.clamp(1, MOST_STEPS),
         },
-        range: texture.range.map(|height| f32::from(height) / 255.0),
+        // A level map has a shell of one level, at the foot of which it is.
+        range: {
+            let [low, high] = texture.range.map(f32::from);
+            [low / 255.0, high.max(low + 1.0) / 255.0]
+        },
         size: texture.size.map(|side| side as f32),
         bisections: relief.bisections.min(MOST_BISECTIONS),
         unused: [0; 3],

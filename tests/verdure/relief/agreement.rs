@@ -8,11 +8,10 @@ use bevy_verdure::lab::reference::{ReferenceEnds, ReferenceJoin, ReferenceSettin
 use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use super::{add_map, bumps, limb};
+use super::{THICKNESS, add_map, bumps, limb};
 use crate::skeletons::reference_joints;
 
 const SIZE: UVec2 = UVec2::new(160, 120);
-const THICKNESS: f32 = 0.08;
 
 /// What was found in one picture.
 #[derive(Default, Debug)]

@@ -1,15 +1,20 @@
 //! Relief as it is drawn, against a march of 4,096 steps in double precision.
 
 mod agreement;
+mod bad_input;
+mod passes;
 
 use core::f32::consts::TAU;
 
 use bevy::asset::RenderAssetUsages;
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
-use bevy_verdure::lab::Studio;
 use bevy_verdure::lab::reference::relief::HeightImage;
+use bevy_verdure::lab::{Lens, Shot, Studio};
 use bevy_verdure::prelude::*;
+
+/// Thickness of the shell, in metres.
+const THICKNESS: f32 = 0.08;
 
 /// Pixels of the test's maps, along u and along v.
 const MAP: UVec2 = UVec2::new(24, 16);
@@ -46,6 +51,37 @@ fn add_map(studio: &mut Studio, map: &HeightImage) -> Handle<Image> {
     let image = image(map);
     studio.world().resource_mut::<Assets<Image>>().add(image)
 }
+
+/// A studio with a limb in it whose relief is [`bumps`], and the map taken up.
+fn studio_with(
+    skeleton: &Skeleton,
+    base: StandardMaterial,
+    relief: impl Fn(Relief) -> Relief,
+) -> Studio {
+    let mut studio = Studio::default();
+    let map = add_map(&mut studio, &bumps());
+    let relief = relief(Relief::new(map, ReliefThickness::Metres(THICKNESS)));
+    let material = relief_material(base, relief);
+    studio.plant_in(
+        skeleton.clone(),
+        Frusta::default(),
+        Transform::IDENTITY,
+        material,
+    );
+    // The map is taken up in the frame after the material.
+    for _ in 0..3 {
+        studio.headless.step();
+    }
+    studio
+}
+
+/// What the pictures below are taken from.
+const SHOT: Shot = Shot {
+    eye: Vec3::new(3.0, 2.5, 6.0),
+    at: Vec3::new(0.3, 1.8, 0.0),
+    lens: Lens::Perspective(0.7),
+    size: UVec2::new(160, 120),
+};
 
 /// A limb of four segments that bends, with or without taper.
 fn limb(taper: f32, bend: f32) -> Skeleton {
