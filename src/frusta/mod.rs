@@ -32,6 +32,7 @@
 //!   planes and its iteration (Equations 3 to 5) are kept as [`Join::Paper`] and [`Join::PaperIterated`].
 //! * Sharp bends fall back from a mitre to a sphere; branches start inside their parent; ends are closed.
 //! * Of the quadratic's roots the first that lies on the frustum counts, not the nearest alone (Equation 10).
+//! * One plane divides the whole shell of a relief where two segments meet, and u is in line all round it.
 //! * Silhouettes are smooth with MSAA: along outlines every sample casts its own ray, each pixel is shaded once.
 //!
 //! # What it does not do

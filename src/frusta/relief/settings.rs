@@ -92,19 +92,20 @@ pub enum ReliefThickness {
     Relative(f32),
 }
 
-/// How many steps a ray takes through the shell before its hit is refined.
+/// How many steps a ray takes through the shell before its hit is refined. `docs/limits.md` charts which features are
+/// missed with how many.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum ReliefSteps {
     /// As many as the shell needs at its size on screen: about one for each pixel, of the screen or of the map,
-    /// whichever is larger, that the ray passes over.
+    /// whichever is larger, that the ray passes over, from 3 to 64.
     #[default]
     Auto,
     /// So many, 1 to 1024.
     Fixed(u32),
 }
 
-/// How v is found at a point of a ray.
+/// How v is found at a point of a ray. `docs/limits.md` charts by how much interpolation is off.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum ReliefV {
