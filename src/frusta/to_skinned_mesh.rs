@@ -32,7 +32,7 @@ impl Skeleton {
     ///     mut materials: ResMut<Assets<StandardMaterial>>,
     /// ) -> Result {
     ///     for (plant, skeleton, segments) in &plants {
-    ///         let Some(skeleton) = skeletons.get(skeleton) else { continue };
+    ///         let Some(skeleton) = skeletons.get(&skeleton.0) else { continue };
     ///         let (mesh, inverse_bindposes) = skeleton.to_skinned_mesh(&MeshSettings::default())?;
     ///         commands.spawn((
     ///             Mesh3d(meshes.add(mesh)),
