@@ -46,6 +46,7 @@
 
 mod buffers;
 mod component;
+mod deferred;
 pub mod double;
 mod extent;
 mod links;
@@ -143,6 +144,7 @@ impl Plugin for FrustaPlugin {
                 ),
             );
         if let Some(render_app) = app.get_sub_app_mut(RenderApp) {
+            deferred::build(render_app);
             render_app
                 .init_gpu_resource::<buffers::FrustaBuffers>()
                 .init_gpu_resource::<relief::ReliefTextures>()

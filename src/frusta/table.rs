@@ -34,8 +34,8 @@ impl Rows {
 /// A table has no room for a plant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error(
-    "no room for {len} more {name} of plants on the GPU (the limit is {capacity}): the plant is not drawn. Despawn \
-     plants, let more of them share a skeleton and a pose, or use skeletons with fewer joints"
+    "no room for {len} more {name} of plants on the GPU (the limit is {capacity}, in {MAX_RANGES} ranges): the plant is \
+     not drawn. Despawn plants, let more of them share a skeleton and a pose, or use skeletons with fewer joints"
 )]
 pub(crate) struct NoRoomError {
     len: usize,
@@ -46,6 +46,9 @@ pub(crate) struct NoRoomError {
 /// Rows that a table has room for: as many as one storage buffer of 128 MiB, the least that every device
 /// offers, holds of the largest record.
 const CAPACITY: u32 = (128 << 20) / 64;
+
+/// Ranges of rows that a table has room for, gaps between them included: a plant takes one in each table, or shares it.
+const MAX_RANGES: u32 = 128 << 10;
 
 /// Bytes that may be uploaded for a row that changed.
 const ALLOWANCE: usize = 64;
@@ -60,7 +63,8 @@ impl<T: Pod> Table<T> {
     pub(crate) fn with_capacity(name: &'static str, capacity: u32) -> Self {
         Self {
             rows: Vec::new(),
-            allocator: Allocator::new(capacity),
+            // What is free at the end takes one, and one is never given out.
+            allocator: Allocator::with_max_allocs(capacity, MAX_RANGES + 2),
             changed: Vec::new(),
             credit: 0,
             name,
@@ -190,5 +194,15 @@ mod tests {
         let mut table = Table::<u8>::new("rows");
         assert!(table.allocate(CAPACITY as usize + 1).is_err());
         assert!(table.allocate(1).is_ok());
+    }
+
+    #[test]
+    fn a_table_has_as_many_ranges_as_it_says() {
+        let mut table = Table::<u8>::new("rows");
+        let ranges = (0..=MAX_RANGES).take_while(|_| table.allocate(1).is_ok());
+        assert_eq!(ranges.count(), MAX_RANGES as usize);
+        let refused = table.allocate(1).map(|rows| rows.first());
+        let refused = refused.unwrap_err().to_string();
+        assert!(refused.contains("131072 ranges"), "{refused}");
     }
 }

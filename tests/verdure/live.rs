@@ -16,6 +16,8 @@ use bevy_verdure::lab::{Headless, Lens, Shot, Studio};
 use bevy_verdure::prelude::*;
 use bevy_verdure::skeleton::{PlantPlugin, SkeletonPlugin};
 
+use crate::relief::bumpy_relief;
+
 const SIZE: UVec2 = UVec2::new(256, 192);
 
 /// Shows what the prepass wrote, all over the picture.
@@ -60,6 +62,15 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
 
 #[test]
 fn motion_vectors_match_the_pose() {
+    check_motion_vectors(false);
+}
+
+#[test]
+fn motion_vectors_of_relief_match_the_pose() {
+    check_motion_vectors(true);
+}
+
+fn check_motion_vectors(with_relief: bool) {
     let mut studio = Studio::new(|app| {
         app.add_plugins(MaterialPlugin::<Probe>::default());
     });
@@ -87,7 +98,12 @@ fn motion_vectors_match_the_pose() {
     );
     let skeleton = limb.build().unwrap();
     let transform = Transform::from_xyz(0.2, -0.1, 0.3).with_rotation(Quat::from_rotation_y(0.4));
-    let plant = studio.plant(skeleton, Frusta::default(), transform);
+    let material = if with_relief {
+        relief_material(Color::WHITE, bumpy_relief(&mut studio))
+    } else {
+        frusta_material(Color::WHITE)
+    };
+    let plant = studio.plant_in(skeleton, Frusta::default(), transform, material);
     let bend = |angle: f32| SkeletonPose {
         rotations: vec![Quat::from_rotation_z(angle); 4],
     };

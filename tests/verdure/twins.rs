@@ -210,18 +210,60 @@ fn after_all_prepasses() {
     assert!(difference("prepass", PERSPECTIVE, 1, stage) < SAME);
 }
 
+fn deferred_sun(studio: &mut Studio) {
+    sun(studio);
+    let camera = studio.camera();
+    let world = studio.world();
+    world.insert_resource(DefaultOpaqueRendererMethod::deferred());
+    world
+        .entity_mut(camera)
+        .insert((DepthPrepass, DeferredPrepass));
+}
+
 #[test]
 fn deferred() {
-    let stage = |studio: &mut Studio| {
-        sun(studio);
-        let camera = studio.camera();
-        let world = studio.world();
-        world.insert_resource(DefaultOpaqueRendererMethod::deferred());
+    assert!(difference("deferred", PERSPECTIVE, 1, deferred_sun) < SAME);
+}
+
+/// A deferred limb whose forward pass would write figures instead of light, were it drawn there.
+fn deferred_limb(output: FrustaOutput, prepass: bool) -> Vec<u8> {
+    let mut limb = Skeleton::builder();
+    let root = limb.root(Vec3::ZERO, RADIUS);
+    limb.joint(root, Vec3::Y, 0.5 * RADIUS);
+    let mut studio = Studio::default();
+    deferred_sun(&mut studio);
+    let camera = studio.camera();
+    let world = studio.world();
+    if !prepass {
         world
             .entity_mut(camera)
-            .insert((DepthPrepass, DeferredPrepass));
-    };
-    assert!(difference("deferred", PERSPECTIVE, 1, stage) < SAME);
+            .remove::<(DepthPrepass, DeferredPrepass)>();
+    }
+    let skeleton = world
+        .resource_mut::<Assets<Skeleton>>()
+        .add(limb.build().unwrap());
+    let mut skin = frusta_material(skin());
+    skin.extension.output = output;
+    let skin = world.resource_mut::<Assets<FrustaMaterial>>().add(skin);
+    world.spawn((Skeleton3d(skeleton), MeshMaterial3d(skin)));
+    studio.headless.step();
+    studio
+        .photograph(&shot(PERSPECTIVE), Color::BLACK)
+        .rgb_bytes()
+}
+
+#[test]
+fn deferred_plants_are_drawn_once() {
+    let lit = deferred_limb(FrustaOutput::Shaded, true);
+    assert!(lit.iter().any(|&byte| byte > 50), "nothing was drawn");
+    // Deferred lighting's, to the byte: no forward pass wrote normals over it.
+    assert!(lit == deferred_limb(FrustaOutput::Normals, true));
+    // A view without that prepass draws the same material forward.
+    let forward = deferred_limb(FrustaOutput::Shaded, false);
+    let flip = mean_flip((SIZE.x, SIZE.y), &lit, &forward);
+    println!("deferred against forward: mean FLIP {flip:.5}");
+    assert!(flip < SAME, "{flip}");
+    assert!(lit != deferred_limb(FrustaOutput::Normals, false));
 }
 
 #[test]

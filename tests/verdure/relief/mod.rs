@@ -52,6 +52,12 @@ fn add_map(studio: &mut Studio, map: &HeightImage) -> Handle<Image> {
     studio.world().resource_mut::<Assets<Image>>().add(image)
 }
 
+/// The relief of [`bumps`], in a shell of [`THICKNESS`].
+pub fn bumpy_relief(studio: &mut Studio) -> Relief {
+    let map = add_map(studio, &bumps());
+    Relief::new(map, ReliefThickness::Metres(THICKNESS))
+}
+
 /// A studio with a limb in it whose relief is [`bumps`], and the map taken up.
 fn studio_with(
     skeleton: &Skeleton,
@@ -59,8 +65,7 @@ fn studio_with(
     relief: impl Fn(Relief) -> Relief,
 ) -> Studio {
     let mut studio = Studio::default();
-    let map = add_map(&mut studio, &bumps());
-    let relief = relief(Relief::new(map, ReliefThickness::Metres(THICKNESS)));
+    let relief = relief(bumpy_relief(&mut studio));
     let material = relief_material(base, relief);
     studio.plant_in(
         skeleton.clone(),

@@ -1,7 +1,10 @@
 //! Relief in every pass: what they draw is one surface.
 
-use bevy::core_pipeline::prepass::{DepthPrepass, MotionVectorPrepass, NormalPrepass};
+use bevy::core_pipeline::prepass::{
+    DeferredPrepass, DepthPrepass, MotionVectorPrepass, NormalPrepass,
+};
 use bevy::light::CascadeShadowConfigBuilder;
+use bevy::material::OpaqueRendererMethod;
 use bevy::math::DVec3;
 use bevy::prelude::*;
 use bevy_verdure::lab::reference::ReferenceSettings;
@@ -17,8 +20,11 @@ const SAME: f32 = 0.003;
 /// From where the sun shines.
 const SUN: Vec3 = Vec3::new(-0.7, -0.85, -0.35);
 
-fn lit(configure: impl FnOnce(&mut Studio)) -> Pixels {
-    let base = Color::srgb(0.5, 0.4, 0.3).into();
+fn lit(method: OpaqueRendererMethod, configure: impl FnOnce(&mut Studio)) -> Pixels {
+    let base = StandardMaterial {
+        opaque_render_method: method,
+        ..Color::srgb(0.5, 0.4, 0.3).into()
+    };
     let mut studio = studio_with(&limb(0.75, 0.5), base, |relief| relief);
     studio.world().spawn((
         DirectionalLight {
@@ -42,14 +48,35 @@ fn lit(configure: impl FnOnce(&mut Studio)) -> Pixels {
 
 #[test]
 fn prepasses_draw_the_relief_that_the_main_pass_draws() {
-    let forward = lit(|_| {});
-    let prepass = lit(|studio| {
+    let forward = lit(OpaqueRendererMethod::Forward, |_| {});
+    let prepass = lit(OpaqueRendererMethod::Forward, |studio| {
         let camera = studio.camera();
         let prepasses = (DepthPrepass, NormalPrepass, MotionVectorPrepass);
         studio.world().entity_mut(camera).insert(prepasses);
     });
-    let size = (SHOT.size.x, SHOT.size.y);
-    let flip = mean_flip(size, &forward.rgb_bytes(), &prepass.rgb_bytes());
+    check_alike(&forward, &prepass);
+}
+
+#[test]
+fn deferred_lighting_sees_the_relief_that_the_main_pass_draws() {
+    let forward = lit(OpaqueRendererMethod::Forward, |_| {});
+    let deferred = lit(OpaqueRendererMethod::Deferred, |studio| {
+        let camera = studio.camera();
+        let prepasses = (DepthPrepass, DeferredPrepass);
+        studio.world().entity_mut(camera).insert(prepasses);
+    });
+    check_alike(&forward, &deferred);
+    // The G-buffer packs normals and colours into bytes. Were the pictures the same, forward would have drawn both.
+    assert!(forward.rgb_bytes() != deferred.rgb_bytes());
+}
+
+fn check_alike(one: &Pixels, other: &Pixels) {
+    let flip = mean_flip(
+        (SHOT.size.x, SHOT.size.y),
+        &one.rgb_bytes(),
+        &other.rgb_bytes(),
+    );
+    println!("mean FLIP {flip:.5}");
     assert!(flip < SAME, "{flip}");
 }
 
