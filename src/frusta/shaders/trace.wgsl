@@ -12,7 +12,8 @@
 }
 
 #ifdef FRUSTA_RELIEF
-#import bevy_verdure::frusta::relief::{Shell, ReliefHit, shell_of, march, height, map_pixels, ball_across, turn_of}
+#import bevy_verdure::frusta::relief::{Shell, shell_of, height, map_pixels, mip_level, ball_across, turn_of}
+#import bevy_verdure::frusta::march::{ReliefHit, march}
 #endif
 
 // Share of a pixel by which cutting planes overlap.
@@ -63,7 +64,7 @@ fn see_relief(seen: ptr<function, Seen>, in: Varying, sample_mask: u32) {
     let shell = shell_of(in);
     (*seen).shell = shell;
     let ray = (*seen).ray;
-    let found = march(Ray(ray.origin, ray.direction), shell, least_depth(ray));
+    let found = march(Ray(ray.origin, ray.direction), shell, least_depth(ray), true);
     take(seen, found);
     (*seen).coverage = select(0u, sample_mask, found.hit.t < NO_ROOT);
 #ifdef FRUSTA_MULTISAMPLED
@@ -84,11 +85,12 @@ fn see_relief(seen: ptr<function, Seen>, in: Varying, sample_mask: u32) {
             continue;
         }
         let sample_ray = pixel_ray((*seen).frame, in.position.xy + sample_offset(i));
-        let sample = march(Ray(sample_ray.origin, sample_ray.direction), shell, least_depth(sample_ray));
+        let shades = (*seen).hit.t >= NO_ROOT;
+        let sample = march(Ray(sample_ray.origin, sample_ray.direction), shell, least_depth(sample_ray), shades);
         if sample.hit.t >= NO_ROOT {
             continue;
         }
-        if (*seen).hit.t >= NO_ROOT {
+        if shades {
             (*seen).ray = sample_ray;
             take(seen, sample);
         }
@@ -313,7 +315,7 @@ fn relief_normal(
     // Differences over a pixel of the map or of the screen, whichever is larger.
     let pixels = map_pixels();
     let footprint = max(length(surface.uv_dx * pixels), length(surface.uv_dy * pixels));
-    let lod = max(log2(footprint), 0.0);
+    let lod = mip_level(footprint);
     let du = 0.5 * exp2(lod) / max(pixels.x, 1e-6);
     let dv = 0.5 * exp2(lod) / max(pixels.y * abs(shell.v_length), 1e-6);
     let slope_u = height(shell, s.u + du, s.v, lod) - height(shell, s.u - du, s.v, lod);
