@@ -20,6 +20,7 @@ pub mod frusta;
 pub mod lab;
 pub mod plants;
 pub mod skeleton;
+pub mod slicing;
 
 use bevy::app::PluginGroupBuilder;
 use bevy::camera::visibility::VisibilitySystems;
