@@ -44,7 +44,9 @@ pub enum SlicingError {
         levels: usize,
     },
     /// The switches do not rise.
-    #[error("switches are not rising distances greater than 0: sort them")]
+    #[error(
+        "switches are not distances greater than 0, each by a quarter more than the last: correct them"
+    )]
     SwitchOrder,
     /// A number is out of range.
     #[error(

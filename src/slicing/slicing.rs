@@ -78,7 +78,7 @@ impl SlicingShape {
             + o.direction * o.offset(index, self.levels[level])
     }
 
-    fn check(&self) -> Result<(), SlicingError> {
+    pub(super) fn check(&self) -> Result<(), SlicingError> {
         let count = |what, value: usize, least, most| {
             if (least..=most).contains(&value) {
                 Ok(())
@@ -117,7 +117,10 @@ impl SlicingShape {
                 levels: self.levels.len(),
             });
         }
-        let rises = self.switches.windows(2).all(|pair| pair[0] < pair[1]);
+        let rises = self
+            .switches
+            .windows(2)
+            .all(|pair| 1.25 * pair[0] <= pair[1]);
         if !rises || !self.switches.iter().all(|at| at.is_finite() && *at > 0.0) {
             return Err(SlicingError::SwitchOrder);
         }

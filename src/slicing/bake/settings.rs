@@ -102,13 +102,16 @@ impl BakeSettings {
             let fix = "use 1 to 3 levels of 1 to 64 slices";
             return refuse("levels", format!("{:?}", self.levels), fix);
         }
-        let rises = self.switches.windows(2).all(|pair| pair[0] < pair[1]);
+        let rises = self
+            .switches
+            .windows(2)
+            .all(|pair| 1.25 * pair[0] <= pair[1]);
         let is_distance = |at: &f32| at.is_finite() && *at > 0.0;
         if self.switches.len() + 1 != self.levels.len()
             || !rises
             || !self.switches.iter().all(is_distance)
         {
-            let fix = "give one rising distance fewer than levels";
+            let fix = "give one distance fewer than levels, each by a quarter more than the last";
             return refuse("switches", format!("{:?}", self.switches), fix);
         }
         if !self.pixels.is_power_of_two() || !(4..=MAX_PIXELS).contains(&self.pixels) {
