@@ -303,7 +303,7 @@ mod tests {
             (
                 "switches: [\n        10.0,",
                 "switches: [\n        10.0, 11.0, 30.0",
-                "switches",
+                "one switch fewer",
             ),
             ("sphere: false", "sphere: maybe", "elm.slicing.ron, line"),
             ("sphere: false", "round: false", "round"),
