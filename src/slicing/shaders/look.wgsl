@@ -21,10 +21,12 @@ fn look(in: Varying) -> Look {
     color *= unpack4x8unorm(mesh[in.instance_index].tag);
     color.a *= in.opacity;
 #ifdef CROWN_FRAMES
+#ifndef PREPASS_PIPELINE
     let edge = min(min(in.uv.x, in.uv.y), min(1.0 - in.uv.x, 1.0 - in.uv.y));
     if edge < 0.012 {
         color = vec4(1.0, 0.15, 0.05, in.opacity);
     }
+#endif
 #endif
     let direction = crown.orientations[abs(in.orientation) - 1].direction;
     var n = baked.xyz * 2.0 - 1.0;

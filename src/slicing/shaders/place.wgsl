@@ -80,13 +80,22 @@ fn place_corner(in: Corner) -> Varying {
     let count = crown.levels[slice.level];
     let layer = first_layer(slice.level, slice.orientation) + slice.index;
     let pair = octagons[layer * 4u + (in.corner & 7u) / 2u];
+#ifdef CROWN_FRAMES
+    // The whole quad, so that its frame shows.
+    var quad = array(
+        vec2(1.0, 0.5), vec2(1.0, 1.0), vec2(0.5, 1.0), vec2(0.0, 1.0),
+        vec2(0.0, 0.5), vec2(0.0, 0.0), vec2(0.5, 0.0), vec2(1.0, 0.0));
+    let uv = quad[in.corner & 7u];
+#else
     let uv = select(pair.xy, pair.zw, (in.corner & 1u) == 1u);
+#endif
     let size = o.high - o.low;
     let spacing = size.z / f32(count);
     var depth = o.low.z + (f32(slice.index) + 0.5) * spacing;
 #ifdef CROWN_LIGHT_VIEW
-    // Leaves lie up to half the spacing in front of the slice that their light meets; none may shade itself.
-    depth -= 0.5 * spacing;
+    // Leaves lie up to half the spacing before and behind the slice that their light meets, and before and behind that
+    // which the eye sees: cast from a little deeper, few shade themselves, and those of one slice still shade each other.
+    depth -= 0.25 * spacing;
 #endif
     let local = crown.centroid
         + o.right * (o.low.x + uv.x * size.x)

@@ -1,0 +1,137 @@
+//! Slicings from files, right and wrong.
+
+use std::path::{Path, PathBuf};
+
+use bevy::asset::LoadState;
+use bevy::prelude::*;
+use bevy_verdure::lab::{Studio, save_slicing};
+use bevy_verdure::prelude::*;
+
+use super::{CROWN, UNLIT, covered, eye, shot};
+
+/// A folder of this test's own, emptied.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("slicing_{name}"));
+    // It may not be there yet.
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for the test");
+    folder
+}
+
+fn edit(path: &Path, old: &str, new: &str) {
+    let text = std::fs::read_to_string(path).expect("the slicing's text");
+    assert!(text.contains(old), "{old}");
+    std::fs::write(path, text.replacen(old, new, 1)).expect("the slicing's text can be changed");
+}
+
+#[test]
+fn what_is_saved_is_read_back_pixel_by_pixel() {
+    let folder = folder("saved");
+    let report = save_slicing(&CROWN, &folder, "crown").expect("the folder can be written to");
+    assert_eq!(report.files.len(), 1 + 2 * CROWN.shape().orientations.len());
+    let size: u64 = report
+        .files
+        .iter()
+        .map(|file| file.metadata().map_or(0, |data| data.len()))
+        .sum();
+    assert_eq!(size, report.bytes);
+    assert_eq!(
+        Slicing::read(&folder.join("crown.slicing.ron")).as_ref(),
+        Ok(&*CROWN)
+    );
+}
+
+#[test]
+fn wrong_files_are_refused_with_the_file_and_the_fix() {
+    let folder = folder("wrong");
+    let path = folder.join("crown.slicing.ron");
+    let refusal = |spoil: &dyn Fn()| {
+        save_slicing(&CROWN, &folder, "crown").expect("the folder can be written to");
+        spoil();
+        Slicing::read(&path).unwrap_err().to_string()
+    };
+    let missing = refusal(&|| {
+        std::fs::remove_file(folder.join("crown.2.normal.png")).expect("the picture is there");
+    });
+    assert!(
+        missing.contains("crown.2.normal.png: cannot be read"),
+        "{missing}"
+    );
+    let other = refusal(&|| {
+        std::fs::copy(
+            "assets/plants/stone_color.png",
+            folder.join("crown.1.color.png"),
+        )
+        .expect("a picture");
+    });
+    assert!(
+        other.contains("crown.1.color.png: is ") && other.contains("bake it anew"),
+        "{other}"
+    );
+    let cut = refusal(&|| {
+        let file = folder.join("crown.1.color.png");
+        let bytes = std::fs::read(&file).expect("the picture");
+        std::fs::write(&file, &bytes[..bytes.len() / 2]).expect("the picture can be changed");
+    });
+    assert!(cut.contains("crown.1.color.png: is no picture"), "{cut}");
+    for (old, new, what) in [
+        (
+            "pixels: 64",
+            "pixels: 32",
+            "crown.0.color.png: is 64 × 576 pixels",
+        ),
+        ("        5,\n", "        0,\n", "the number of slices is 0"),
+        (
+            "        5,\n",
+            "        1000000,\n",
+            "the number of slices is 1000000",
+        ),
+        ("radius:", "girth:", "girth"),
+    ] {
+        let message = refusal(&|| edit(&path, old, new));
+        assert!(message.contains(what), "{message}");
+    }
+    std::fs::remove_file(&path).expect("the slicing's text is there");
+    let gone = Slicing::read(&path).unwrap_err().to_string();
+    assert!(gone.contains("crown.slicing.ron: cannot be read"), "{gone}");
+}
+
+#[test]
+fn a_crown_is_loaded_by_the_asset_server_and_a_bad_reload_keeps_the_last_good_one() {
+    let folder = folder("served");
+    save_slicing(&CROWN, &folder, "crown").expect("the folder can be written to");
+    let path = folder.join("crown.slicing.ron");
+    let mut studio = Studio::new(|_| {});
+    let server = studio.world().resource::<AssetServer>().clone();
+    let handle: Handle<Slicing> = server
+        .load_builder()
+        .override_unapproved()
+        .load(path.clone());
+    studio.world().spawn((SlicedCrown(handle.clone()), UNLIT));
+    let loaded = studio.headless.step_until(2000, |_| {
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        !matches!(
+            server.get_load_state(&handle),
+            Some(LoadState::Loading | LoadState::NotLoaded)
+        )
+    });
+    assert!(loaded, "{:?}", server.get_load_state(&handle));
+    for _ in 0..3 {
+        studio.headless.step();
+    }
+    let look = shot(eye(75.0, 10.0, 16.0));
+    let good = studio.photograph(&look, Color::WHITE);
+    assert!(
+        covered(&good, [255; 3]) > 3000,
+        "{:?}",
+        server.get_load_state(&handle)
+    );
+    edit(&path, "pixels: 64", "pixels: 63");
+    server.reload(path);
+    for _ in 0..60 {
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        studio.headless.step();
+    }
+    let after = studio.photograph(&look, Color::WHITE);
+    assert_eq!(after.rgb_bytes(), good.rgb_bytes());
+}
