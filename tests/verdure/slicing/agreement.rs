@@ -3,6 +3,7 @@
 use bevy::camera::Hdr;
 use bevy::math::DVec3;
 use bevy::prelude::*;
+use bevy_verdure::lab::Lens;
 use bevy_verdure::lab::compositor::{Compositor, srgb_byte};
 use bevy_verdure::prelude::*;
 
@@ -30,7 +31,9 @@ fn the_papers_mode_is_what_the_reference_composes() {
             eye(44.0, 20.0, 13.0),
             eye(200.0, -15.0, 14.0),
         ] {
-            let shot = shot(eye);
+            let mut shot = shot(eye);
+            // So near that a pixel of a slice is more than one of the picture: no mip level is in play.
+            shot.lens = Lens::Perspective(0.3);
             let seen = studio.photograph(&shot, background);
             let compositor = Compositor::new(&CROWN, place.to_matrix().as_dmat4(), eye.as_dvec3());
             let light = background.to_linear();

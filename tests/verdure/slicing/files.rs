@@ -1,13 +1,15 @@
 //! Slicings from files, right and wrong.
 
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
-use bevy::asset::LoadState;
+use bevy::asset::{AssetPlugin, LoadState};
 use bevy::prelude::*;
-use bevy_verdure::lab::{Studio, save_slicing};
+use bevy_verdure::lab::save_slicing;
 use bevy_verdure::prelude::*;
+use bevy_verdure::slicing::SlicingLoader;
 
-use super::{CROWN, UNLIT, covered, eye, shot};
+use super::CROWN;
 
 /// A folder of this test's own, emptied.
 fn folder(name: &str) -> PathBuf {
@@ -97,41 +99,56 @@ fn wrong_files_are_refused_with_the_file_and_the_fix() {
 }
 
 #[test]
-fn a_crown_is_loaded_by_the_asset_server_and_a_bad_reload_keeps_the_last_good_one() {
+fn the_asset_server_loads_a_crown_and_a_bad_reload_keeps_the_last_good_one() {
     let folder = folder("served");
     save_slicing(&CROWN, &folder, "crown").expect("the folder can be written to");
-    let path = folder.join("crown.slicing.ron");
-    let mut studio = Studio::new(|_| {});
-    let server = studio.world().resource::<AssetServer>().clone();
-    let handle: Handle<Slicing> = server
-        .load_builder()
-        .override_unapproved()
-        .load(path.clone());
-    studio.world().spawn((SlicedCrown(handle.clone()), UNLIT));
-    let loaded = studio.headless.step_until(2000, |_| {
-        std::thread::sleep(std::time::Duration::from_millis(2));
-        !matches!(
-            server.get_load_state(&handle),
-            Some(LoadState::Loading | LoadState::NotLoaded)
-        )
-    });
-    assert!(loaded, "{:?}", server.get_load_state(&handle));
-    for _ in 0..3 {
-        studio.headless.step();
-    }
-    let look = shot(eye(75.0, 10.0, 16.0));
-    let good = studio.photograph(&look, Color::WHITE);
-    assert!(
-        covered(&good, [255; 3]) > 3000,
-        "{:?}",
-        server.get_load_state(&handle)
+    let mut app = App::new();
+    app.add_plugins((
+        MinimalPlugins,
+        AssetPlugin {
+            file_path: folder.to_string_lossy().into_owned(),
+            ..default()
+        },
+    ))
+    .init_asset::<Slicing>()
+    .register_asset_loader(SlicingLoader);
+    let server = app.world().resource::<AssetServer>().clone();
+    let handle: Handle<Slicing> = server.load("crown.slicing.ron");
+    let wait = |app: &mut App, until: &dyn Fn(Option<LoadState>) -> bool| {
+        let started = Instant::now();
+        // What is waited for is a change, not a speed.
+        while !until(server.get_load_state(&handle)) {
+            assert!(
+                started.elapsed() < Duration::from_secs(60),
+                "{:?}",
+                server.get_load_state(&handle)
+            );
+            app.update();
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        app.update();
+    };
+    wait(&mut app, &|state| matches!(state, Some(LoadState::Loaded)));
+    let is_crown =
+        |app: &App| app.world().resource::<Assets<Slicing>>().get(&handle) == Some(&*CROWN);
+    assert!(is_crown(&app));
+    edit(
+        &folder.join("crown.slicing.ron"),
+        "pixels: 64",
+        "pixels: 63",
     );
-    edit(&path, "pixels: 64", "pixels: 63");
-    server.reload(path);
-    for _ in 0..60 {
-        std::thread::sleep(std::time::Duration::from_millis(2));
-        studio.headless.step();
-    }
-    let after = studio.photograph(&look, Color::WHITE);
-    assert_eq!(after.rgb_bytes(), good.rgb_bytes());
+    server.reload("crown.slicing.ron");
+    wait(&mut app, &|state| {
+        matches!(state, Some(LoadState::Failed(_)))
+    });
+    assert!(is_crown(&app));
+    let Some(LoadState::Failed(error)) = server.get_load_state(&handle) else {
+        unreachable!("it has just failed");
+    };
+    assert!(
+        error
+            .to_string()
+            .contains("crown.slicing.ron: pixels is 63"),
+        "{error}"
+    );
 }
