@@ -252,11 +252,14 @@ pub(crate) fn uproot(removed: On<Remove, SlicedCrown>, mut commands: Commands) {
     }
 }
 
+/// What tells that a crown may have left something behind.
+type Resettled = Or<(Changed<SlicedCrown>, Changed<CrownSettings>)>;
+
 /// Forgets what no crown uses any more.
 pub(crate) fn forget(
     mut removed: RemovedComponents<SlicedCrown>,
     mut library: ResMut<CrownLibrary>,
-    changed: Query<(), Or<(Changed<SlicedCrown>, Changed<CrownSettings>)>>,
+    changed: Query<(), Resettled>,
     crowns: Query<(&SlicedCrown, &CrownSettings)>,
 ) {
     if removed.read().count() == 0 && changed.is_empty() {

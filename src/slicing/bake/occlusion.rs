@@ -38,7 +38,7 @@ impl Grid {
         let (low, high) = mesh.bounds()?;
         let longest = (high - low).max_element();
         let cell = longest / CELLS;
-        if !(cell > 0.0) {
+        if cell <= 0.0 {
             return None;
         }
         let size = ((high - low) / cell).to_array().map(|x| x as usize + 1);

@@ -132,7 +132,7 @@ fn every_small_triangle_is_on_one_slice_of_each_orientation() {
             };
             let on = (0..5).filter(|slice| {
                 let seen = rasterize(&alone, &projection, *slice, 5);
-                seen.iter().any(|seen| *seen == 0)
+                seen.contains(&0)
             });
             let centroid = o.axes(triangle.centroid() - shape.centroid).z;
             let nearest = o.slice_at(centroid, 5);
