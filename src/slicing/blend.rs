@@ -205,6 +205,27 @@ pub fn drawn_slices(
     drawn
 }
 
+/// The slices that cast shadows for light from `direction` (unit), that of a directional light: those of the nearest
+/// orientation, in the second level of detail. Shadow maps are many and large, and a shadow shows no depth of its crown
+/// but on the crown itself.
+pub fn cast_slices(shape: &SlicingShape, direction: Vec3) -> Vec<DrawnSlice> {
+    let (mut nearest, mut greatest) = (0, -2.0);
+    for (i, o) in shape.orientations.iter().enumerate() {
+        let cosine = o.direction.dot(direction);
+        if cosine > greatest {
+            (nearest, greatest) = (i as u32, cosine);
+        }
+    }
+    let level = (shape.levels.len() - 1).min(1);
+    let slice = |index| DrawnSlice {
+        orientation: nearest,
+        level: level as u32,
+        index,
+        opacity: 1.0,
+    };
+    (0..shape.levels[level]).map(slice).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use core::f32::consts::TAU;
@@ -347,6 +368,26 @@ mod tests {
             // From below, what is above is further.
             assert_eq!(drawn[0].index, if y > 0.0 { 0 } else { 4 });
         }
+    }
+
+    #[test]
+    fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
+        let shape = shape(Orientations::Circle(6), true);
+        for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {
+            let cast = cast_slices(&shape, light);
+            assert_eq!(cast.len(), 3);
+            assert!(
+                cast.iter()
+                    .all(|s| s.orientation == orientation && s.opacity == 1.0),
+                "{light}"
+            );
+        }
+        let single = SlicingShape {
+            levels: vec![5],
+            switches: Vec::new(),
+            ..shape
+        };
+        assert_eq!(cast_slices(&single, Vec3::Y).len(), 5);
     }
 
     #[test]

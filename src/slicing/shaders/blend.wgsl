@@ -158,3 +158,18 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
         corrected(slot.weight * share, greatest, crown.correction),
     );
 }
+
+// The slices that cast shadows for light from a direction: those of the nearest orientation, in the second level.
+fn cast_slice(number: u32, direction: vec3<f32>) -> DrawnSlice {
+    var nearest = 0u;
+    var greatest = -2.0;
+    for (var i = 0u; i < crown.orientation_count; i += 1u) {
+        let cosine = dot(crown.orientations[i].direction, direction);
+        if cosine > greatest {
+            nearest = i;
+            greatest = cosine;
+        }
+    }
+    let level = min(crown.levels.w - 1u, 1u);
+    return DrawnSlice(nearest, level, number, select(0.0, 1.0, number < crown.levels[level]));
+}

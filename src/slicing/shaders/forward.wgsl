@@ -8,28 +8,15 @@
 }
 #import bevy_pbr::mesh_bindings::mesh
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner, is_orthographic}
-#import bevy_verdure::slicing::look::{look, is_there, footprint}
+#import bevy_verdure::slicing::look::{Look, look, is_there, footprint}
 
 @vertex
 fn vertex(corner: Corner) -> Varying {
     return place_corner(corner);
 }
 
-@fragment
-fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    let seen = look(in);
-    let pixel = footprint(in.uv);
-    // Less than half a step of eight bits shows nowhere.
-    if seen.color.a < 0.5 / 255.0 {
-        discard;
-    }
-    var alpha = seen.color.a;
-#ifdef CROWN_HASHED
-    if !is_there(in, alpha, pixel) {
-        discard;
-    }
-    alpha = 1.0;
-#endif
+// A slice's colour in the light of the scene.
+fn shade(in: Varying, seen: Look, alpha: f32) -> vec4<f32> {
     var input = pbr_types::pbr_input_new();
     input.material.base_color = vec4(seen.color.rgb, alpha);
     input.material.perceptual_roughness = 0.75;
@@ -50,4 +37,18 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
 #endif
     color = pbr_functions::main_pass_post_lighting_processing(input, color);
     return vec4(color.rgb, alpha);
+}
+
+@fragment
+fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    let seen = look(in);
+    var alpha = seen.color.a;
+#ifdef CROWN_HASHED
+    alpha = select(0.0, 1.0, is_there(in, alpha, footprint(in.uv)));
+#endif
+    // Most of a slice is empty; less than half a step of eight bits shows nowhere.
+    if alpha < 0.5 / 255.0 {
+        discard;
+    }
+    return shade(in, seen, alpha);
 }

@@ -15,9 +15,8 @@ struct Look {
     occlusion: f32,
 }
 
-fn look(in: Varying) -> Look {
+fn slice_color(in: Varying) -> vec4<f32> {
     var color = textureSample(color_texture, slice_sampler, in.uv, in.layer);
-    let baked = textureSample(normal_texture, slice_sampler, in.uv, in.layer);
     color *= unpack4x8unorm(mesh[in.instance_index].tag);
     color.a *= in.opacity;
 #ifdef CROWN_FRAMES
@@ -28,6 +27,12 @@ fn look(in: Varying) -> Look {
     }
 #endif
 #endif
+    return color;
+}
+
+fn look(in: Varying) -> Look {
+    let color = slice_color(in);
+    let baked = textureSample(normal_texture, slice_sampler, in.uv, in.layer);
     let direction = crown.orientations[abs(in.orientation) - 1].direction;
     var n = baked.xyz * 2.0 - 1.0;
     if in.orientation < 0 {

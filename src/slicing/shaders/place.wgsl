@@ -7,7 +7,7 @@
 #import bevy_render::globals::Globals
 #import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
 #import bevy_verdure::slicing::types::{crown, octagons, first_layer}
-#import bevy_verdure::slicing::blend::drawn_slice
+#import bevy_verdure::slicing::blend::{drawn_slice, cast_slice}
 #import bevy_verdure::wind::sway
 
 #ifdef PREPASS_PIPELINE
@@ -72,7 +72,11 @@ fn place_corner(in: Corner) -> Varying {
     let eye = eye_from_centroid(in.instance_index);
     let distance = length(eye);
     let direction = select(vec3(0.0, 0.0, 1.0), eye / distance, distance > 0.0);
+#ifdef CROWN_LIGHT_VIEW
+    let slice = cast_slice(in.corner >> 3u, direction);
+#else
     let slice = drawn_slice(in.corner >> 3u, direction, distance);
+#endif
     if slice.opacity <= 0.0 {
         return out;
     }

@@ -3,12 +3,14 @@
 #import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner}
-#import bevy_verdure::slicing::look::{look, is_there, footprint}
+#import bevy_verdure::slicing::look::{look, slice_color, is_there, footprint}
 
 @vertex
 fn vertex(corner: Corner) -> Varying {
     return place_corner(corner);
 }
+
+#ifdef PREPASS_FRAGMENT
 
 struct Output {
 #ifdef NORMAL_PREPASS
@@ -17,11 +19,8 @@ struct Output {
 #ifdef MOTION_VECTOR_PREPASS
     @location(1) motion_vector: vec2<f32>,
 #endif
-#ifndef NORMAL_PREPASS
-#ifndef MOTION_VECTOR_PREPASS
-    // A struct of nothing is no output.
+#ifdef UNCLIPPED_DEPTH_ORTHO_EMULATION
     @builtin(frag_depth) depth: f32,
-#endif
 #endif
 }
 
@@ -42,10 +41,20 @@ fn fragment(in: Varying) -> Output {
     // In texture coordinates: clip space is two wide, and its y points up.
     out.motion_vector = (clip.xy / clip.w - clip_before.xy / clip_before.w) * vec2(0.5, -0.5);
 #endif
-#ifndef NORMAL_PREPASS
-#ifndef MOTION_VECTOR_PREPASS
+#ifdef UNCLIPPED_DEPTH_ORTHO_EMULATION
+    // The vertex stage has brought what is nearer than the shadow map to its near plane.
     out.depth = in.position.z;
-#endif
 #endif
     return out;
 }
+
+#else
+
+@fragment
+fn fragment(in: Varying) {
+    if !is_there(in, slice_color(in).a, footprint(in.uv)) {
+        discard;
+    }
+}
+
+#endif
