@@ -45,7 +45,8 @@ impl Walk {
         // Ahead, and a little towards the middle of the grove, where the trees are.
         let ahead = (place(t + 0.05) - eye).normalize_or(Vec3::NEG_X);
         let inwards = (Vec3::Y * EYE - eye).normalize_or(Vec3::NEG_X);
-        (eye, eye + ahead + 0.9 * inwards + Vec3::Y * 0.25)
+        let level = (ahead + 0.9 * inwards).normalize_or(inwards);
+        (eye, eye + level + Vec3::Y * 0.12)
     }
 }
 

@@ -206,8 +206,7 @@ pub fn drawn_slices(
 }
 
 /// The slices that cast shadows for light from `direction` (unit), that of a directional light: those of the nearest
-/// orientation, in the second level of detail. Shadow maps are many and large, and a shadow shows no depth of its crown
-/// but on the crown itself.
+/// orientation, in the finest level of detail, since the crown shades itself in as many steps as there are slices.
 pub fn cast_slices(shape: &SlicingShape, direction: Vec3) -> Vec<DrawnSlice> {
     let (mut nearest, mut greatest) = (0, -2.0);
     for (i, o) in shape.orientations.iter().enumerate() {
@@ -216,14 +215,13 @@ pub fn cast_slices(shape: &SlicingShape, direction: Vec3) -> Vec<DrawnSlice> {
             (nearest, greatest) = (i as u32, cosine);
         }
     }
-    let level = (shape.levels.len() - 1).min(1);
     let slice = |index| DrawnSlice {
         orientation: nearest,
-        level: level as u32,
+        level: 0,
         index,
         opacity: 1.0,
     };
-    (0..shape.levels[level]).map(slice).collect()
+    (0..shape.levels[0]).map(slice).collect()
 }
 
 #[cfg(test)]
@@ -375,19 +373,13 @@ mod tests {
         let shape = shape(Orientations::Circle(6), true);
         for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {
             let cast = cast_slices(&shape, light);
-            assert_eq!(cast.len(), 3);
+            assert_eq!(cast.len(), 5);
             assert!(
                 cast.iter()
                     .all(|s| s.orientation == orientation && s.opacity == 1.0),
                 "{light}"
             );
         }
-        let single = SlicingShape {
-            levels: vec![5],
-            switches: Vec::new(),
-            ..shape
-        };
-        assert_eq!(cast_slices(&single, Vec3::Y).len(), 5);
     }
 
     #[test]

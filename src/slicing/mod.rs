@@ -28,6 +28,7 @@
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
 //! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
 //! * Levels of fewer slices take over with distance, faded into one another.
+//! * Directional lights see the one slicing that faces them.
 //! * Wind moves near slices more than far ones; see [`wind`](crate::wind).
 //!
 //! # What it does not do

@@ -159,7 +159,7 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
     );
 }
 
-// The slices that cast shadows for light from a direction: those of the nearest orientation, in the second level.
+// The slices that cast shadows for light from a direction: those of the nearest orientation, in the finest level.
 fn cast_slice(number: u32, direction: vec3<f32>) -> DrawnSlice {
     var nearest = 0u;
     var greatest = -2.0;
@@ -170,6 +170,5 @@ fn cast_slice(number: u32, direction: vec3<f32>) -> DrawnSlice {
             greatest = cosine;
         }
     }
-    let level = min(crown.levels.w - 1u, 1u);
-    return DrawnSlice(nearest, level, number, select(0.0, 1.0, number < crown.levels[level]));
+    return DrawnSlice(nearest, 0u, number, select(0.0, 1.0, number < crown.levels.x));
 }
