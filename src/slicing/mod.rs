@@ -60,6 +60,7 @@ mod tests;
 use bevy::asset::AssetEventSystems;
 use bevy::pbr::MaterialPlugin;
 use bevy::prelude::*;
+use bevy::render::storage::ShaderBuffer;
 use bevy::shader::load_shader_library;
 
 pub use bake::{
@@ -115,6 +116,8 @@ impl Plugin for SlicingPlugin {
                     library::tint,
                 )
                     .chain()
+                    // An app without a renderer has none; it draws no crowns either.
+                    .run_if(resource_exists::<Assets<ShaderBuffer>>)
                     .in_set(VerdureSystems::Attach)
                     .before(AssetEventSystems),
             );
