@@ -6,6 +6,8 @@
 //! |---|---|---|
 //! | [`skeleton`] | joints, segments, poses; files; what a plant is before it has a surface | |
 //! | [`frusta`] | solid parts: a cone round each segment, ray cast per pixel | `skeleton` |
+//! | [`slicing`] | sparse parts: crowns of twigs and leaves, baked into blended slices | `wind` |
+//! | [`wind`] | one wind for all plants of a scene | |
 //! | [`plants`] | skeletons grown from a seed: palms, pines, cacti, and scenes of them | `skeleton` |
 //! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
 //!
@@ -20,6 +22,8 @@ pub mod frusta;
 pub mod lab;
 pub mod plants;
 pub mod skeleton;
+pub mod slicing;
+pub mod wind;
 
 use bevy::app::PluginGroupBuilder;
 use bevy::camera::visibility::VisibilitySystems;
@@ -36,6 +40,11 @@ pub mod prelude {
         Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,
         UnfoldSkeleton,
     };
+    pub use crate::slicing::{
+        BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
+        Orientations, SliceOrder, SlicedCrown, Slicing, bake,
+    };
+    pub use crate::wind::Wind;
     pub use crate::{VerdurePlugin, VerdureSystems};
 }
 
@@ -55,6 +64,8 @@ impl PluginGroup for VerdurePlugin {
             .add(skeleton::SkeletonPlugin)
             .add(skeleton::PlantPlugin)
             .add(frusta::FrustaPlugin)
+            .add(wind::WindPlugin)
+            .add(slicing::SlicingPlugin)
     }
 }
 

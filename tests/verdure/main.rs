@@ -17,6 +17,7 @@ mod segments;
 mod skeleton_files;
 mod skeletons;
 mod skinned;
+mod slicing;
 mod twins;
 mod view;
 mod views;

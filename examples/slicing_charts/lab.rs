@@ -1,0 +1,140 @@
+//! The app that everything is measured in, and the tree.
+
+use bevy::light::CascadeShadowConfigBuilder;
+use bevy::prelude::*;
+use bevy_verdure::lab::{GpuClockPlugin, Studio, adapter_name};
+use bevy_verdure::plants::Broadleaf;
+use bevy_verdure::prelude::*;
+
+pub struct Lab {
+    pub studio: Studio,
+    pub crown: CrownMesh,
+    /// The device's name.
+    pub adapter: String,
+    /// Whether to measure less.
+    pub quick: bool,
+    looks: Looks,
+}
+
+struct Looks {
+    solid: Handle<Mesh>,
+    leaves: Handle<Mesh>,
+    twigs: Handle<Mesh>,
+    wood: Handle<StandardMaterial>,
+    green: Handle<StandardMaterial>,
+}
+
+/// How a tree's crown is drawn.
+#[derive(Clone)]
+pub enum Drawn {
+    Mesh,
+    Slicing(Handle<Slicing>, CrownSettings),
+}
+
+impl Lab {
+    pub fn open(quick: bool) -> Self {
+        let mut studio = Studio::new(|app| {
+            app.add_plugins(GpuClockPlugin)
+                .insert_resource(GlobalAmbientLight {
+                    brightness: 750.0,
+                    ..default()
+                });
+        });
+        let tree = Broadleaf::default().grow(1);
+        let mut crown = CrownMesh::default();
+        let material = crown.add_material(CrownMaterial::default());
+        for (name, mesh) in [("twigs", &tree.twigs), ("leaves", &tree.leaves)] {
+            crown
+                .add_mesh(name, mesh, Mat4::IDENTITY, material)
+                .expect("a broadleaf's meshes can be baked");
+        }
+        let world = studio.world();
+        world.spawn((
+            DirectionalLight {
+                illuminance: 10_500.0,
+                shadow_maps_enabled: true,
+                ..default()
+            },
+            CascadeShadowConfigBuilder {
+                maximum_distance: 70.0,
+                first_cascade_far_bound: 20.0,
+                ..default()
+            }
+            .build(),
+            Transform::default().looking_to(Vec3::new(-0.7, -0.85, -0.35), Vec3::Y),
+        ));
+        let mut meshes = world.resource_mut::<Assets<Mesh>>();
+        let [solid, twigs, leaves] =
+            [&tree.solid, &tree.twigs, &tree.leaves].map(|mesh| meshes.add(mesh.clone()));
+        let mut materials = world.resource_mut::<Assets<StandardMaterial>>();
+        let wood = materials.add(StandardMaterial {
+            perceptual_roughness: 0.95,
+            reflectance: 0.2,
+            ..default()
+        });
+        let green = materials.add(StandardMaterial {
+            perceptual_roughness: 0.75,
+            reflectance: 0.3,
+            double_sided: true,
+            cull_mode: None,
+            ..default()
+        });
+        let adapter = adapter_name(world);
+        Self {
+            studio,
+            crown,
+            adapter,
+            quick,
+            looks: Looks {
+                solid,
+                leaves,
+                twigs,
+                wood,
+                green,
+            },
+        }
+    }
+
+    /// Bakes the crown.
+    pub fn bake(&mut self, settings: &BakeSettings) -> Result<Handle<Slicing>, String> {
+        let slicing = bake(&self.crown, settings).map_err(|error| error.to_string())?;
+        Ok(self
+            .studio
+            .world()
+            .resource_mut::<Assets<Slicing>>()
+            .add(slicing))
+    }
+
+    /// Plants a tree.
+    pub fn plant(&mut self, drawn: &Drawn, place: Transform) -> Entity {
+        let looks = &self.looks;
+        let parts = [
+            (looks.twigs.clone(), looks.wood.clone()),
+            (looks.leaves.clone(), looks.green.clone()),
+        ];
+        let trunk = (
+            Mesh3d(looks.solid.clone()),
+            MeshMaterial3d(looks.wood.clone()),
+            place,
+        );
+        let tree = self
+            .studio
+            .world()
+            .spawn((trunk, Visibility::default()))
+            .id();
+        self.studio
+            .world()
+            .entity_mut(tree)
+            .with_children(|tree| match drawn {
+                Drawn::Mesh => {
+                    for (mesh, material) in parts {
+                        tree.spawn((Mesh3d(mesh), MeshMaterial3d(material)));
+                    }
+                }
+                Drawn::Slicing(slicing, settings) => {
+                    tree.spawn((SlicedCrown(slicing.clone()), *settings));
+                }
+            });
+        tree
+    }
+}

@@ -1,0 +1,53 @@
+//! Slicing measured: cost against the number of trees, and error against the mesh. See `docs/slicing.md`.
+//!
+//! ```text
+//! cargo run --example slicing_charts -- --out docs/charts
+//! ```
+
+mod accuracy;
+mod cost;
+mod lab;
+
+use std::path::PathBuf;
+
+use bevy_verdure::lab::charts::Chart;
+use clap::Parser;
+
+use lab::Lab;
+
+/// Measures slicing, and draws the charts.
+#[derive(Parser)]
+struct Args {
+    /// Folder for the charts: SVG, PNG and CSV of each.
+    #[arg(long, default_value = "docs/charts")]
+    out: PathBuf,
+    /// Only those whose name contains this.
+    #[arg(long, default_value = "")]
+    only: String,
+    /// Fewer trees, eyes and settings.
+    #[arg(long)]
+    quick: bool,
+}
+
+/// A chart of its name.
+type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
+
+const EXPERIMENTS: [Experiment; 5] = [
+    ("slicing_cost", cost::against_trees),
+    ("slicing_slices", accuracy::against_slices),
+    ("slicing_orientations", accuracy::against_orientations),
+    ("slicing_pixels", accuracy::against_pixels),
+    ("slicing_elevation", accuracy::against_elevation),
+];
+
+fn main() -> Result<(), String> {
+    let args = Args::parse();
+    for (name, chart) in EXPERIMENTS {
+        if name.contains(&args.only) {
+            let mut lab = Lab::open(args.quick);
+            chart(&mut lab)?.save(&args.out, name)?;
+            println!("{}", args.out.join(name).with_extension("png").display());
+        }
+    }
+    Ok(())
+}

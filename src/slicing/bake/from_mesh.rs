@@ -1,0 +1,151 @@
+//! Crowns from Bevy's meshes and materials.
+
+use bevy::asset::Assets;
+use bevy::color::{ColorToComponents, LinearRgba};
+use bevy::image::Image;
+use bevy::math::{Mat4, Vec2, Vec3};
+use bevy::mesh::{Mesh, PrimitiveTopology, VertexAttributeValues};
+use bevy::pbr::StandardMaterial;
+use bevy::prelude::AlphaMode;
+
+use super::error::BakeError;
+use super::source::{CrownMaterial, CrownMesh, CrownVertex};
+use super::texture::CrownTexture;
+
+impl CrownMaterial {
+    /// What a crown takes of a standard material: base colour, its texture, and its alpha mask. `mesh` names it in
+    /// errors.
+    ///
+    /// # Errors
+    /// When the texture is not among `images`, or cannot be read.
+    pub fn from_standard(
+        mesh: &str,
+        material: &StandardMaterial,
+        images: &Assets<Image>,
+    ) -> Result<Self, BakeError> {
+        let texture = match &material.base_color_texture {
+            None => None,
+            Some(handle) => {
+                let image = images
+                    .get(handle)
+                    .ok_or_else(|| BakeError::MissingTexture { mesh: mesh.into() })?;
+                Some(CrownTexture::from_image(image)?)
+            }
+        };
+        let mut color = LinearRgba::from(material.base_color).to_f32_array();
+        let mut cutoff = 0.0;
+        match material.alpha_mode {
+            AlphaMode::Opaque => color[3] = 1.0,
+            // A mask at 0 lets everything through, as no mask does.
+            AlphaMode::Mask(at) => cutoff = at,
+            _ => {}
+        }
+        // Alpha of a texture means nothing in an opaque material.
+        let opaque = material.alpha_mode == AlphaMode::Opaque;
+        Ok(Self {
+            color,
+            texture: texture.map(|texture| if opaque { texture.opaque() } else { texture }),
+            cutoff,
+        })
+    }
+}
+
+impl CrownMesh {
+    /// Adds a Bevy mesh, moved by `transform`, with a material of this crown. `name` names it in errors.
+    ///
+    /// A mesh without indices is a list of triangles; without normals it is flat-shaded; texture coordinates may be
+    /// missing where the material has no texture, and vertex colours always.
+    ///
+    /// # Errors
+    /// When the mesh is not one of triangles, is not kept in the main world, lacks positions or needed texture
+    /// coordinates, or its indices point behind its vertices.
+    pub fn add_mesh(
+        &mut self,
+        name: &str,
+        mesh: &Mesh,
+        transform: Mat4,
+        material: u32,
+    ) -> Result<(), BakeError> {
+        let topology = match mesh.primitive_topology() {
+            PrimitiveTopology::TriangleList => None,
+            PrimitiveTopology::TriangleStrip => Some("a strip"),
+            PrimitiveTopology::PointList => Some("points"),
+            _ => Some("lines"),
+        };
+        if let Some(topology) = topology {
+            return Err(BakeError::Topology {
+                mesh: name.into(),
+                topology,
+            });
+        }
+        let missing = |attribute, fix| BakeError::MissingAttribute {
+            mesh: name.into(),
+            attribute,
+            fix,
+        };
+        let fix = "give it positions of three 32-bit floats, and keep it in the main world";
+        let attribute = |attribute| mesh.try_attribute_option(attribute).ok().flatten();
+        let positions = attribute(Mesh::ATTRIBUTE_POSITION)
+            .and_then(VertexAttributeValues::as_float3)
+            .ok_or_else(|| missing("positions", fix))?;
+        let normals = attribute(Mesh::ATTRIBUTE_NORMAL).and_then(VertexAttributeValues::as_float3);
+        let uvs = match attribute(Mesh::ATTRIBUTE_UV_0) {
+            Some(VertexAttributeValues::Float32x2(uvs)) => Some(uvs),
+            _ => None,
+        };
+        let colors = match attribute(Mesh::ATTRIBUTE_COLOR) {
+            Some(VertexAttributeValues::Float32x4(colors)) => Some(colors),
+            _ => None,
+        };
+        let has_texture = |material: &CrownMaterial| material.texture.is_some();
+        if uvs.is_none()
+            && self
+                .materials
+                .get(material as usize)
+                .is_some_and(has_texture)
+        {
+            let fix = "give it texture coordinates, or a material without a texture";
+            return Err(missing("texture coordinates", fix));
+        }
+        let indices: Vec<usize> = match mesh.try_indices_option() {
+            Ok(Some(indices)) => indices.iter().collect(),
+            _ => (0..positions.len()).collect(),
+        };
+        let mut part = Self::default();
+        for (index, corners) in indices.chunks_exact(3).enumerate() {
+            if let Some(vertex) = corners.iter().find(|corner| **corner >= positions.len()) {
+                return Err(BakeError::Index {
+                    mesh: name.into(),
+                    triangle: index,
+                    vertex: *vertex,
+                    count: positions.len(),
+                });
+            }
+            let at = |corner: usize| Vec3::from(positions[corners[corner]]);
+            let flat = (at(1) - at(0)).cross(at(2) - at(0));
+            let vertices = core::array::from_fn(|corner| {
+                let i = corners[corner];
+                CrownVertex {
+                    position: at(corner),
+                    normal: normals
+                        .and_then(|all| all.get(i))
+                        .map_or(flat, |n| Vec3::from(*n)),
+                    uv: uvs
+                        .and_then(|all| all.get(i))
+                        .map_or(Vec2::ZERO, |uv| Vec2::from(*uv)),
+                    color: colors
+                        .and_then(|all| all.get(i))
+                        .copied()
+                        .unwrap_or([1.0; 4]),
+                }
+            });
+            part.push(vertices, 0);
+        }
+        let first = self.triangles.len();
+        self.append(&part, transform);
+        for triangle in &mut self.triangles[first..] {
+            triangle.material = material;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,156 @@
+//! What is baked: triangles in the plant's local space, with all that tells their colour.
+
+use bevy::math::{Mat3, Mat4, Vec2, Vec3};
+
+use super::error::BakeError;
+use super::texture::CrownTexture;
+
+/// Furthest that a vertex may lie from the origin along an axis, in metres.
+pub const MAX_COORDINATE: f32 = 1e5;
+
+/// The look of some of a crown's triangles.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CrownMaterial {
+    /// Base colour, linear, multiplied with vertex colours and the texture.
+    pub color: [f32; 4],
+    /// Base colour texture; `None` is white.
+    pub texture: Option<CrownTexture>,
+    /// Where alpha is less than this there is a hole (an alpha mask); 0 for none.
+    pub cutoff: f32,
+}
+
+impl Default for CrownMaterial {
+    fn default() -> Self {
+        Self {
+            color: [1.0; 4],
+            texture: None,
+            cutoff: 0.0,
+        }
+    }
+}
+
+/// A vertex of a crown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrownVertex {
+    /// Local space, metres.
+    pub position: Vec3,
+    /// Local space, of any length but 0.
+    pub normal: Vec3,
+    /// Texture coordinates; textures repeat.
+    pub uv: Vec2,
+    /// Colour, linear, multiplied with the material's.
+    pub color: [f32; 4],
+}
+
+/// A triangle of a crown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrownTriangle {
+    /// Its corners.
+    pub vertices: [CrownVertex; 3],
+    /// Index into [`CrownMesh::materials`].
+    pub material: u32,
+}
+
+impl CrownTriangle {
+    /// Centroid, c_p of §2.2.
+    pub fn centroid(&self) -> Vec3 {
+        let [a, b, c] = self.positions();
+        (a + b + c) / 3.0
+    }
+
+    /// Area, in square metres.
+    pub fn area(&self) -> f32 {
+        let [a, b, c] = self.positions();
+        0.5 * (b - a).cross(c - a).length()
+    }
+
+    /// The three corners' positions.
+    pub fn positions(&self) -> [Vec3; 3] {
+        self.vertices.map(|vertex| vertex.position)
+    }
+}
+
+/// The sparse part of a plant, as triangles: the input of [`bake`](super::bake()).
+///
+/// Fill it from code with [`add_material`](Self::add_material) and [`push`](Self::push), or from Bevy meshes with
+/// [`add_mesh`](Self::add_mesh). Nothing is checked before it is baked.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CrownMesh {
+    /// The triangles, in any order; they are seen from both sides.
+    pub triangles: Vec<CrownTriangle>,
+    /// The materials that the triangles name.
+    pub materials: Vec<CrownMaterial>,
+}
+
+impl CrownMesh {
+    /// Adds a material, and gives its index.
+    pub fn add_material(&mut self, material: CrownMaterial) -> u32 {
+        self.materials.push(material);
+        self.materials.len() as u32 - 1
+    }
+
+    /// Adds a triangle.
+    pub fn push(&mut self, vertices: [CrownVertex; 3], material: u32) {
+        self.triangles.push(CrownTriangle { vertices, material });
+    }
+
+    /// Adds all of another crown, moved by `transform`.
+    pub fn append(&mut self, other: &Self, transform: Mat4) {
+        let first = self.materials.len() as u32;
+        self.materials.extend(other.materials.iter().cloned());
+        // Normals are turned by the cofactors, which stay finite where the scale is 0 along an axis.
+        let [x, y, z] = Mat3::from_mat4(transform)
+            .to_cols_array_2d()
+            .map(Vec3::from);
+        let turn = Mat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+        for triangle in &other.triangles {
+            let vertices = triangle.vertices.map(|vertex| CrownVertex {
+                position: transform.transform_point3(vertex.position),
+                normal: turn * vertex.normal,
+                ..vertex
+            });
+            self.push(vertices, first + triangle.material);
+        }
+    }
+
+    /// Refuses what cannot be baked; of degenerate triangles, which have no area, the rest is none the worse.
+    pub(super) fn check(&self) -> Result<(), BakeError> {
+        if self.triangles.is_empty() {
+            return Err(BakeError::NoTriangles);
+        }
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            if triangle.material as usize >= self.materials.len() {
+                return Err(BakeError::MissingMaterial {
+                    triangle: index,
+                    material: triangle.material,
+                    count: self.materials.len(),
+                });
+            }
+            for vertex in &triangle.vertices {
+                let is_near = vertex.position.abs().max_element() <= MAX_COORDINATE;
+                // NaN is not near either; it hides from `max_element`.
+                if !is_near || !vertex.position.is_finite() {
+                    return Err(BakeError::Position {
+                        triangle: index,
+                        position: vertex.position,
+                    });
+                }
+                let colours = vertex.color.iter().all(|x| x.is_finite());
+                if !vertex.normal.is_finite() || !vertex.uv.is_finite() || !colours {
+                    return Err(BakeError::Attribute { triangle: index });
+                }
+            }
+        }
+        if self.triangles.iter().all(|triangle| triangle.area() <= 0.0) {
+            return Err(BakeError::NoArea);
+        }
+        Ok(())
+    }
+
+    /// The box round all triangles: its low and its high corner.
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let mut positions = self.triangles.iter().flat_map(CrownTriangle::positions);
+        let first = positions.next()?;
+        Some(positions.fold((first, first), |(low, high), p| (low.min(p), high.max(p))))
+    }
+}

@@ -1,0 +1,88 @@
+//! What a game's author puts on an entity.
+
+use bevy::camera::visibility::NoAutoAabb;
+use bevy::mesh::MeshTag;
+use bevy::prelude::*;
+
+use super::blend::SliceOrder;
+use super::slicing::Slicing;
+
+/// Draws a crown from its slicings. Scale and turn it with [`Transform`]; put what is solid, its trunk and limbs, on
+/// another entity beside it or above it.
+///
+/// ```
+/// # use bevy::prelude::*;
+/// # use bevy_verdure::slicing::*;
+/// fn plant(mut commands: Commands, server: Res<AssetServer>) {
+///     let crown = server.load("oak.slicing.ron");
+///     for i in 0..100 {
+///         let place = Transform::from_xyz((i % 10) as f32 * 9.0, 0.0, (i / 10) as f32 * 9.0);
+///         commands.spawn((SlicedCrown(crown.clone()), place));
+///     }
+/// }
+/// ```
+#[derive(Component, Clone, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[require(CrownSettings, CrownTint, MeshTag, NoAutoAabb, Transform, Visibility)]
+pub struct SlicedCrown(pub Handle<Slicing>);
+
+/// How a [`SlicedCrown`] is put together. Filled in where a crown has none; may be changed at any time. Crowns of one
+/// slicing and the same settings are drawn together.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
+pub struct CrownSettings {
+    /// How slices cover what is behind them.
+    pub composition: Composition,
+    /// In what order slices are drawn, and which.
+    pub order: SliceOrder,
+    /// How many of the furthest slices of each slicing are left out, as the paper allows (§2.3).
+    pub left_out: u32,
+    /// Whether the crown is lit by the scene; else it has the colours of its pictures.
+    pub lit: bool,
+    /// Whether each slice has a frame, as in the paper's Figure 3.
+    pub frames: bool,
+}
+
+impl Default for CrownSettings {
+    fn default() -> Self {
+        Self {
+            composition: Composition::default(),
+            order: SliceOrder::default(),
+            left_out: 0,
+            lit: true,
+            frames: false,
+        }
+    }
+}
+
+/// How the slices of a crown cover what is behind them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum Composition {
+    /// Blended far to near, as the paper does: smooth; crowns are sorted among all that is transparent.
+    #[default]
+    Blended,
+    /// Each pixel of a slice is there or not, by chance, as often as it is opaque (C. Wyman, M. McGuire, *Hashed Alpha
+    /// Testing*, I3D 2017): no order, depth is written, so that prepasses and deferred rendering see the crown. Grainy
+    /// without temporal anti-aliasing.
+    Hashed,
+}
+
+/// Multiplies the colours of a [`SlicedCrown`], so that neighbours differ: 8 bits of sRGB a channel, 1 at most.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct CrownTint(pub Color);
+
+impl Default for CrownTint {
+    fn default() -> Self {
+        Self(Color::WHITE)
+    }
+}
+
+impl CrownTint {
+    /// The tint as the shaders get it.
+    pub(super) fn tag(self) -> u32 {
+        let [r, g, b, _] = self.0.to_srgba().to_u8_array();
+        u32::from_le_bytes([r, g, b, 255])
+    }
+}

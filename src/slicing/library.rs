@@ -1,0 +1,280 @@
+//! What is on the GPU for the slicings in use, and the systems that keep it up to date.
+
+use bevy::asset::{AssetEvent, AssetId, RenderAssetUsages};
+use bevy::camera::primitives::Aabb;
+use bevy::image::{Image, ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
+use bevy::mesh::MeshTag;
+use bevy::platform::collections::{HashMap, HashSet};
+use bevy::prelude::*;
+use bevy::render::render_resource::{
+    Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
+};
+use bevy::render::storage::ShaderBuffer;
+
+use super::component::{CrownSettings, CrownTint, SlicedCrown};
+use super::material::{CrownUniform, SlicedCrownMaterial};
+use super::mesh::crown_mesh;
+use super::slicing::Slicing;
+use crate::wind::Wind;
+
+/// What crowns of one slicing share.
+struct Shared {
+    mesh: Handle<Mesh>,
+    color: Handle<Image>,
+    normal: Handle<Image>,
+    octagons: Handle<ShaderBuffer>,
+    bounds: Aabb,
+    materials: HashMap<CrownSettings, Handle<SlicedCrownMaterial>>,
+}
+
+/// What is on the GPU, by slicing, as long as a crown uses it.
+#[derive(Resource, Default)]
+pub(crate) struct CrownLibrary {
+    shared: HashMap<AssetId<Slicing>, Shared>,
+}
+
+/// The assets that slicings are turned into.
+#[derive(bevy::ecs::system::SystemParam)]
+pub(crate) struct CrownAssets<'w> {
+    meshes: ResMut<'w, Assets<Mesh>>,
+    images: ResMut<'w, Assets<Image>>,
+    buffers: ResMut<'w, Assets<ShaderBuffer>>,
+    materials: ResMut<'w, Assets<SlicedCrownMaterial>>,
+}
+
+impl Shared {
+    fn new(slicing: &Slicing, assets: &mut CrownAssets) -> Self {
+        let [color, normal] = images(slicing);
+        Self {
+            mesh: assets.meshes.add(crown_mesh(slicing.shape())),
+            color: assets.images.add(color),
+            normal: assets.images.add(normal),
+            octagons: assets.buffers.add(octagons(slicing)),
+            bounds: bounds(slicing),
+            materials: HashMap::default(),
+        }
+    }
+
+    /// Follows a slicing that was edited.
+    fn renew(&mut self, slicing: &Slicing, wind: Vec3, assets: &mut CrownAssets) {
+        let [color, normal] = images(slicing);
+        let is_kept = [
+            assets.images.insert(self.color.id(), color).is_ok(),
+            assets.images.insert(self.normal.id(), normal).is_ok(),
+            assets
+                .buffers
+                .insert(self.octagons.id(), octagons(slicing))
+                .is_ok(),
+            assets
+                .meshes
+                .insert(self.mesh.id(), crown_mesh(slicing.shape()))
+                .is_ok(),
+        ];
+        debug_assert!(
+            is_kept.into_iter().all(|kept| kept),
+            "handles keep their assets"
+        );
+        self.bounds = bounds(slicing);
+        for (settings, material) in &self.materials {
+            if let Some(mut material) = assets.materials.get_mut(material) {
+                material.crown = CrownUniform::new(slicing.shape(), settings, wind);
+            }
+        }
+    }
+
+    fn material(
+        &mut self,
+        slicing: &Slicing,
+        settings: CrownSettings,
+        wind: Vec3,
+        assets: &mut CrownAssets,
+    ) -> Handle<SlicedCrownMaterial> {
+        let make = || {
+            assets.materials.add(SlicedCrownMaterial {
+                crown: CrownUniform::new(slicing.shape(), &settings, wind),
+                octagons: self.octagons.clone(),
+                color: self.color.clone(),
+                normal: self.normal.clone(),
+                settings,
+            })
+        };
+        self.materials.entry(settings).or_insert_with(make).clone()
+    }
+}
+
+fn bounds(slicing: &Slicing) -> Aabb {
+    let shape = slicing.shape();
+    // Room to sway.
+    let reach = Vec3::splat(1.1 * shape.radius);
+    Aabb::from_min_max(shape.centroid - reach, shape.centroid + reach)
+}
+
+fn octagons(slicing: &Slicing) -> ShaderBuffer {
+    let corners = slicing.octagons().iter().flatten();
+    let numbers: Vec<f32> = corners.flat_map(|corner| corner.to_array()).collect();
+    ShaderBuffer::new(bytemuck::cast_slice(&numbers), RenderAssetUsages::default())
+}
+
+/// The texture arrays of colours and of normals.
+fn images(slicing: &Slicing) -> [Image; 2] {
+    let shape = slicing.shape();
+    let formats = [TextureFormat::Rgba8UnormSrgb, TextureFormat::Rgba8Unorm];
+    let [color, normal] = slicing.texture_bytes();
+    let image = |data: Vec<u8>, format| {
+        let size = Extent3d {
+            width: shape.pixels,
+            height: shape.pixels,
+            depth_or_array_layers: shape.layers() as u32,
+        };
+        let mut image = Image::new_uninit(
+            size,
+            TextureDimension::D2,
+            format,
+            RenderAssetUsages::RENDER_WORLD,
+        );
+        image.texture_descriptor.mip_level_count = shape.pixels.ilog2() + 1;
+        image.texture_view_descriptor = Some(TextureViewDescriptor {
+            dimension: Some(TextureViewDimension::D2Array),
+            ..default()
+        });
+        image.data = Some(data);
+        // Slices of weight are seen at 30° or less from their normal, where a pixel is 1.15 times as long as wide:
+        // anisotropic filtering would cost more than it shows.
+        image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
+            address_mode_u: ImageAddressMode::ClampToEdge,
+            address_mode_v: ImageAddressMode::ClampToEdge,
+            mag_filter: ImageFilterMode::Linear,
+            min_filter: ImageFilterMode::Linear,
+            mipmap_filter: ImageFilterMode::Linear,
+            ..default()
+        });
+        image
+    };
+    [image(color, formats[0]), image(normal, formats[1])]
+}
+
+/// What tells that a crown needs a (new) material.
+type Unattached = Or<(
+    Without<MeshMaterial3d<SlicedCrownMaterial>>,
+    Changed<SlicedCrown>,
+    Changed<CrownSettings>,
+)>;
+
+/// Gives crowns whose slicing is there what they are drawn with. One whose slicing is not there yet keeps what it has.
+pub(crate) fn attach(
+    mut commands: Commands,
+    mut library: ResMut<CrownLibrary>,
+    mut assets: CrownAssets,
+    slicings: Res<Assets<Slicing>>,
+    wind: Res<Wind>,
+    crowns: Query<(Entity, &SlicedCrown, &CrownSettings), Unattached>,
+) {
+    if crowns.is_empty() {
+        return;
+    }
+    let wind = wind.limited();
+    for (entity, SlicedCrown(handle), settings) in &crowns {
+        let Some(slicing) = slicings.get(handle) else {
+            continue;
+        };
+        let shared = library.shared.entry(handle.id());
+        let shared = shared.or_insert_with(|| Shared::new(slicing, &mut assets));
+        let material = shared.material(slicing, *settings, wind, &mut assets);
+        commands.entity(entity).try_insert((
+            Mesh3d(shared.mesh.clone()),
+            MeshMaterial3d(material),
+            shared.bounds,
+        ));
+    }
+}
+
+/// Follows slicings that were edited or reloaded, and a device that has taken a lost one's place, which has nothing of
+/// what was there.
+pub(crate) fn follow_slicings(
+    mut events: MessageReader<AssetEvent<Slicing>>,
+    mut library: ResMut<CrownLibrary>,
+    mut assets: CrownAssets,
+    slicings: Res<Assets<Slicing>>,
+    wind: Res<Wind>,
+    device: Option<Res<bevy::render::renderer::RenderDevice>>,
+    mut crowns: Query<(&SlicedCrown, &mut Aabb)>,
+) {
+    let mut edited: HashSet<AssetId<Slicing>> = HashSet::default();
+    for event in events.read() {
+        if let AssetEvent::Modified { id } = event {
+            edited.insert(*id);
+        }
+    }
+    let is_new_device = device.is_some_and(|device| device.is_changed());
+    if is_new_device {
+        edited.extend(library.shared.keys());
+    }
+    for id in &edited {
+        if let (Some(shared), Some(slicing)) = (library.shared.get_mut(id), slicings.get(*id)) {
+            shared.renew(slicing, wind.limited(), &mut assets);
+            for (_, mut aabb) in crowns.iter_mut().filter(|(crown, _)| crown.0.id() == *id) {
+                aabb.set_if_neq(shared.bounds);
+            }
+        }
+    }
+}
+
+/// Tells the materials of a change of wind.
+pub(crate) fn follow_wind(
+    library: Res<CrownLibrary>,
+    mut assets: CrownAssets,
+    slicings: Res<Assets<Slicing>>,
+    wind: Res<Wind>,
+) {
+    for (id, shared) in &library.shared {
+        let Some(slicing) = slicings.get(*id) else {
+            continue;
+        };
+        for (settings, material) in &shared.materials {
+            if let Some(mut material) = assets.materials.get_mut(material) {
+                material.crown = CrownUniform::new(slicing.shape(), settings, wind.limited());
+            }
+        }
+    }
+}
+
+/// Tells the meshes' tags of changed tints.
+pub(crate) fn tint(mut crowns: Query<(&CrownTint, &mut MeshTag), Changed<CrownTint>>) {
+    for (tint, mut tag) in &mut crowns {
+        tag.set_if_neq(MeshTag(tint.tag()));
+    }
+}
+
+/// Stops drawing an entity that is a crown no more.
+pub(crate) fn uproot(removed: On<Remove, SlicedCrown>, mut commands: Commands) {
+    if let Ok(mut entity) = commands.get_entity(removed.entity) {
+        entity.try_remove::<(Mesh3d, MeshMaterial3d<SlicedCrownMaterial>, Aabb)>();
+    }
+}
+
+/// What tells that a crown may have left something behind.
+type Resettled = Or<(Changed<SlicedCrown>, Changed<CrownSettings>)>;
+
+/// Forgets what no crown uses any more.
+pub(crate) fn forget(
+    mut removed: RemovedComponents<SlicedCrown>,
+    mut library: ResMut<CrownLibrary>,
+    changed: Query<(), Resettled>,
+    crowns: Query<(&SlicedCrown, &CrownSettings)>,
+) {
+    if removed.read().count() == 0 && changed.is_empty() {
+        return;
+    }
+    let used: HashSet<_> = crowns
+        .iter()
+        .map(|(crown, settings)| (crown.0.id(), *settings))
+        .collect();
+    for (id, shared) in &mut library.shared {
+        shared
+            .materials
+            .retain(|settings, _| used.contains(&(*id, *settings)));
+    }
+    library
+        .shared
+        .retain(|_, shared| !shared.materials.is_empty());
+}

@@ -1,0 +1,174 @@
+//! The material that draws crowns, in Bevy's own phases.
+//!
+//! Blended crowns are items of the transparent phase: sorted far to near among all that is transparent, and drawn as
+//! instances where neighbours in that order are of one slicing. Hashed ones are items of the alpha-mask phases.
+
+use bevy::asset::{Asset, AssetPath};
+use bevy::image::Image;
+use bevy::math::{UVec4, Vec2, Vec3, Vec4};
+use bevy::mesh::MeshVertexBufferLayoutRef;
+use bevy::pbr::{Material, MaterialPipeline, MaterialPipelineKey, MeshPipelineKey};
+use bevy::prelude::*;
+use bevy::render::render_resource::{
+    AsBindGroup, RenderPipelineDescriptor, ShaderType, SpecializedMeshPipelineError,
+};
+use bevy::render::storage::ShaderBuffer;
+use bevy::shader::ShaderRef;
+
+use super::blend::SliceOrder;
+use super::component::{Composition, CrownSettings};
+use super::limits::MAX_ORIENTATIONS;
+use super::mesh::ATTRIBUTE_CORNER;
+use super::slicing::SlicingShape;
+
+/// Metres that a crown's top gives for each metre a second of wind, for each metre of its radius.
+const FLEXIBILITY: f32 = 0.006;
+
+/// An orientation, as the shaders have it.
+#[derive(Clone, Copy, Debug, Default, ShaderType)]
+pub(crate) struct OrientationUniform {
+    direction: Vec3,
+    right: Vec3,
+    up: Vec3,
+    low: Vec3,
+    high: Vec3,
+}
+
+/// A slicing's shape and its crowns' settings, as the shaders have them.
+#[derive(Clone, Debug, ShaderType)]
+pub(crate) struct CrownUniform {
+    centroid: Vec3,
+    radius: f32,
+    /// Slices of each level, and the number of levels.
+    levels: UVec4,
+    switches: Vec2,
+    correction: f32,
+    left_out: u32,
+    orientation_count: u32,
+    sphere: u32,
+    vertical: u32,
+    flexibility: f32,
+    /// Velocity of the wind.
+    wind: Vec4,
+    orientations: [OrientationUniform; MAX_ORIENTATIONS],
+}
+
+impl CrownUniform {
+    pub(crate) fn new(shape: &SlicingShape, settings: &CrownSettings, wind: Vec3) -> Self {
+        let level = |i: usize| shape.levels.get(i).copied().unwrap_or(0);
+        let switch = |i: usize| shape.switches.get(i).copied().unwrap_or(f32::MAX);
+        let mut orientations = [OrientationUniform::default(); MAX_ORIENTATIONS];
+        for (uniform, o) in orientations.iter_mut().zip(&shape.orientations) {
+            *uniform = OrientationUniform {
+                direction: o.direction,
+                right: o.right,
+                up: o.up,
+                low: o.low,
+                high: o.high,
+            };
+        }
+        Self {
+            centroid: shape.centroid,
+            radius: shape.radius,
+            levels: UVec4::new(level(0), level(1), level(2), shape.levels.len() as u32),
+            switches: Vec2::new(switch(0), switch(1)),
+            correction: shape.correction,
+            left_out: settings.left_out,
+            orientation_count: shape.orientations.len() as u32,
+            sphere: shape.sphere.into(),
+            vertical: shape.vertical.into(),
+            flexibility: FLEXIBILITY * shape.radius,
+            wind: wind.extend(0.0),
+            orientations,
+        }
+    }
+}
+
+/// The material of all crowns of one slicing that have the same settings. Made by the plugin.
+#[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
+#[bind_group_data(CrownSettings)]
+pub struct SlicedCrownMaterial {
+    #[uniform(0)]
+    pub(crate) crown: CrownUniform,
+    #[storage(1, read_only)]
+    pub(crate) octagons: Handle<ShaderBuffer>,
+    #[texture(2, dimension = "2d_array")]
+    #[sampler(3)]
+    pub(crate) color: Handle<Image>,
+    #[texture(4, dimension = "2d_array")]
+    pub(crate) normal: Handle<Image>,
+    pub(crate) settings: CrownSettings,
+}
+
+impl From<&SlicedCrownMaterial> for CrownSettings {
+    fn from(material: &SlicedCrownMaterial) -> Self {
+        // What only the uniform depends on does not tell pipelines apart.
+        Self {
+            left_out: 0,
+            ..material.settings
+        }
+    }
+}
+
+/// Path of a shader of this folder.
+fn shader(name: &str) -> ShaderRef {
+    ShaderRef::Path(
+        AssetPath::parse(&format!("embedded://bevy_verdure/slicing/shaders/{name}")).into_owned(),
+    )
+}
+
+impl Material for SlicedCrownMaterial {
+    fn vertex_shader() -> ShaderRef {
+        shader("forward.wgsl")
+    }
+
+    fn fragment_shader() -> ShaderRef {
+        shader("forward.wgsl")
+    }
+
+    fn prepass_vertex_shader() -> ShaderRef {
+        shader("prepass.wgsl")
+    }
+
+    fn prepass_fragment_shader() -> ShaderRef {
+        shader("prepass.wgsl")
+    }
+
+    fn alpha_mode(&self) -> AlphaMode {
+        match self.settings.composition {
+            Composition::Blended => AlphaMode::Blend,
+            // Any mask will do: it names the phase, the shader tests by chance.
+            Composition::Hashed => AlphaMode::Mask(0.5),
+        }
+    }
+
+    fn specialize(
+        _: &MaterialPipeline,
+        descriptor: &mut RenderPipelineDescriptor,
+        layout: &MeshVertexBufferLayoutRef,
+        key: MaterialPipelineKey<Self>,
+    ) -> Result<(), SpecializedMeshPipelineError> {
+        let corners = layout
+            .0
+            .get_layout(&[ATTRIBUTE_CORNER.at_shader_location(0)])?;
+        descriptor.vertex.buffers = vec![corners];
+        descriptor.primitive.cull_mode = None;
+        let settings = key.bind_group_data;
+        let light = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
+        for (set, def) in [
+            (settings.composition == Composition::Hashed, "CROWN_HASHED"),
+            (settings.order == SliceOrder::Paper, "CROWN_PAPER_ORDER"),
+            (settings.lit, "CROWN_LIT"),
+            (settings.frames, "CROWN_FRAMES"),
+            (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
+        ] {
+            if set {
+                descriptor.vertex.shader_defs.push(def.into());
+                if let Some(fragment) = &mut descriptor.fragment {
+                    fragment.shader_defs.push(def.into());
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,53 @@
+//! The mesh of a crown: octagons that only say which corner of which slice they are.
+
+use bevy::asset::RenderAssetUsages;
+use bevy::math::Vec3;
+use bevy::mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexFormat};
+
+use super::blend::SLOTS;
+use super::octagon::CORNERS;
+use super::slicing::SlicingShape;
+
+/// Number of the slice in drawing order times 8, plus the corner.
+pub(crate) const ATTRIBUTE_CORNER: MeshVertexAttribute = MeshVertexAttribute::new(
+    "Vertex_Slice_Corner",
+    0x5645_5244_5552_4502,
+    VertexFormat::Uint32,
+);
+
+/// The most slices that are drawn of a crown at once: those of two levels that fade into one another, in all slots.
+pub(crate) fn most_slices(shape: &SlicingShape) -> u32 {
+    let pairs = shape.levels.windows(2).map(|pair| pair[0] + pair[1]);
+    pairs.max().unwrap_or(shape.levels[0]) * SLOTS as u32
+}
+
+/// The mesh for a slicing. Its positions are never drawn: they are corners of a box round the crown, with room to sway,
+/// which tells Bevy the crown's bounds and the middle that it is sorted by.
+pub(crate) fn crown_mesh(shape: &SlicingShape) -> Mesh {
+    let count = most_slices(shape) * CORNERS as u32;
+    let reach = 1.1 * shape.radius;
+    let position = |vertex: u32| {
+        let side = |bit: u32| {
+            if vertex >> bit & 1 == 0 {
+                -reach
+            } else {
+                reach
+            }
+        };
+        shape.centroid + Vec3::new(side(0), side(1), side(2))
+    };
+    let indices = (0..most_slices(shape)).flat_map(|slice| {
+        let first = slice * CORNERS as u32;
+        (1..CORNERS as u32 - 1).flat_map(move |i| [first, first + i, first + i + 1])
+    });
+    Mesh::new(
+        PrimitiveTopology::TriangleList,
+        RenderAssetUsages::default(),
+    )
+    .with_inserted_attribute(
+        Mesh::ATTRIBUTE_POSITION,
+        (0..count).map(position).collect::<Vec<_>>(),
+    )
+    .with_inserted_attribute(ATTRIBUTE_CORNER, (0..count).collect::<Vec<_>>())
+    .with_inserted_indices(Indices::U32(indices.collect()))
+}

@@ -1,0 +1,125 @@
+//! Slicing: the sparse parts of a plant, its twigs and leaves, as blended slices.
+//!
+//! The method is that of Jakulin, *Interactive Vegetation Rendering with Slicing and Blending* (Eurographics 2000). From
+//! 10 to 50 metres away the eye makes out no single leaf of a crown, and of its depth no more than a few layers that move
+//! against one another. So the triangles of a crown are baked into a few parallel pictures, its slices, once for each of
+//! some directions, and a crown costs a few quads.
+//!
+//! 1. [`bake()`] turns a [`CrownMesh`] into a [`Slicing`] on the CPU (`bake/`): for each orientation a box
+//!    (`orientation.rs`), for each slice a picture of colour, alpha and normals, trimmed to what is opaque
+//!    (`octagon.rs`), with mip levels that keep coverage (`pyramid.rs`). It is kept as a `*.slicing.ron` and its pictures
+//!    (`document.rs`), which the asset server loads (`loader.rs`).
+//! 2. [`SlicedCrown`] on an entity draws it (`component.rs`). `library.rs` turns slicings into textures, `material.rs`
+//!    draws them in Bevy's own phases, with a mesh that holds nothing but numbers of slices (`mesh.rs`).
+//! 3. For each view, the vertex shader picks the slicings of least discrepancy angle from the eye's position, their
+//!    opacities and the order of their slices (`blend.rs`, `shaders/blend.wgsl`), and places the slices
+//!    (`shaders/place.wgsl`). The fragment shaders light them by their baked normals, with the scene's lights, shadow maps
+//!    and fog (`shaders/forward.wgsl`), or let them cast shadows (`shaders/prepass.wgsl`).
+//!
+//! # How crowns are sorted
+//! Blended crowns are items of Bevy's transparent phase rather than of a pass of their own: so they are in right order
+//! with all else that is transparent, in every view. Neighbours in that order that are of one slicing and the same
+//! settings are instances of one draw; a grove of one kind of tree is one draw.
+//!
+//! # Where this departs from the paper
+//! * Slices of a rank are drawn in the order of their orientations instead of the secondary before the primary one.
+//!   Orientations only come and go at opacity 0, so nothing pops where primary and secondary are swapped. The paper's
+//!   order is kept as [`SliceOrder::Paper`].
+//! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
+//! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
+//! * Levels of fewer slices take over with distance, faded into one another.
+//! * Directional lights see the one slicing that faces them.
+//! * Wind moves near slices more than far ones; see [`wind`](crate::wind).
+//!
+//! # What it does not do
+//! Crowns that intersect are not sorted slice by slice. One discrepancy angle holds for a whole crown, so that within a
+//! few metres slices show. Textures are not compressed on the GPU. Storage buffers in the vertex stage are required, so
+//! WebGL 2 is out.
+
+pub mod bake;
+pub mod blend;
+mod component;
+mod document;
+mod error;
+mod library;
+mod limits;
+mod loader;
+mod material;
+mod mesh;
+pub mod octagon;
+mod orientation;
+mod pyramid;
+#[expect(
+    clippy::module_inception,
+    reason = "the file of the type that the folder is named after"
+)]
+mod slicing;
+#[cfg(test)]
+mod tests;
+
+use bevy::asset::AssetEventSystems;
+use bevy::pbr::MaterialPlugin;
+use bevy::prelude::*;
+use bevy::render::storage::ShaderBuffer;
+use bevy::shader::load_shader_library;
+
+pub use bake::{
+    BakeError, BakeSettings, CrownMaterial, CrownMesh, CrownTexture, CrownTriangle, CrownVertex,
+    Separation, bake, bake_with_progress, separate,
+};
+pub use blend::{DrawnSlice, SliceOrder};
+pub use component::{Composition, CrownSettings, CrownTint, SlicedCrown};
+pub use document::{Picture, SlicingDocument, read_picture};
+pub use error::{SlicingError, SlicingFileError, SlicingFileErrorKind};
+pub use limits::{
+    MAX_LAYERS, MAX_LEVELS, MAX_ORIENTATIONS, MAX_PIXELS, MAX_PIXELS_TOTAL, MAX_SLICES,
+};
+pub use loader::SlicingLoader;
+pub use material::SlicedCrownMaterial;
+pub use octagon::Octagon;
+pub use orientation::{Orientation, Orientations};
+pub use slicing::{Slicing, SlicingShape};
+
+use crate::VerdureSystems;
+use crate::wind::Wind;
+
+/// Loads [`Slicing`]s and draws [`SlicedCrown`]s.
+///
+/// Needs Bevy's rendering plugins, and [`WindPlugin`](crate::wind::WindPlugin).
+pub struct SlicingPlugin;
+
+impl Plugin for SlicingPlugin {
+    fn build(&self, app: &mut App) {
+        load_shader_library!(app, "shaders/types.wgsl");
+        load_shader_library!(app, "shaders/blend.wgsl");
+        load_shader_library!(app, "shaders/place.wgsl");
+        load_shader_library!(app, "shaders/look.wgsl");
+        bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");
+        bevy::asset::embedded_asset!(app, "shaders/prepass.wgsl");
+
+        app.init_asset::<Slicing>()
+            .register_asset_reflect::<Slicing>()
+            .register_asset_loader(SlicingLoader)
+            .add_plugins(MaterialPlugin::<SlicedCrownMaterial>::default())
+            .register_type::<SlicedCrown>()
+            .register_type::<CrownSettings>()
+            .register_type::<CrownTint>()
+            .init_resource::<library::CrownLibrary>()
+            .add_observer(library::uproot)
+            .add_systems(
+                PostUpdate,
+                (
+                    library::forget,
+                    library::follow_slicings,
+                    library::attach,
+                    library::follow_wind.run_if(resource_changed::<Wind>),
+                    library::tint,
+                )
+                    .chain()
+                    // An app without a renderer has none; it draws no crowns either.
+                    .run_if(resource_exists::<Assets<ShaderBuffer>>)
+                    .in_set(VerdureSystems::Attach)
+                    .before(AssetEventSystems),
+            );
+    }
+}

@@ -1,0 +1,174 @@
+#define_import_path bevy_verdure::slicing::blend
+
+// View blending (§2.3), function by function what blend.rs is.
+
+#import bevy_verdure::slicing::types::crown
+
+const SLOTS: u32 = 3u;
+const RISE: vec2<f32> = vec2(0.5, 0.866);
+const FADE: f32 = 0.1;
+
+struct Slot {
+    orientation: u32,
+    weight: f32,
+}
+
+struct DrawnSlice {
+    orientation: u32,
+    level: u32,
+    index: u32,
+    opacity: f32,
+}
+
+fn primary_opacity(primary: vec3<f32>, secondary: vec3<f32>, eye: vec3<f32>) -> f32 {
+    let cosine = clamp(dot(primary, secondary), -1.0, 1.0);
+    let across = secondary - primary * cosine;
+    let width = length(across);
+    if width < 1e-4 {
+        return 1.0;
+    }
+    let discrepancy = atan2(dot(eye, across) / width, dot(eye, primary));
+    let half = 0.5 * acos(cosine);
+    return 1.0 - 0.5 * clamp(discrepancy / half, 0.0, 1.0);
+}
+
+fn swapped(slots: array<Slot, 3>, a: u32, b: u32) -> array<Slot, 3> {
+    var sorted = slots;
+    if sorted[a].orientation > sorted[b].orientation {
+        let kept = sorted[a];
+        sorted[a] = sorted[b];
+        sorted[b] = kept;
+    }
+    return sorted;
+}
+
+fn slots(eye: vec3<f32>) -> array<Slot, 3> {
+#ifdef CROWN_PAPER_ORDER
+    let vertical = false;
+#else
+    let vertical = crown.vertical != 0u;
+#endif
+    let count = crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
+    // The four orientations of least discrepancy angle, the nearest first.
+    var nearest = vec4(0u);
+    var cosines = vec4(-2.0);
+    for (var i = 0u; i < count; i += 1u) {
+        let cosine = dot(crown.orientations[i].direction, eye);
+        if cosine > cosines.x {
+            nearest = vec4(i, nearest.xyz);
+            cosines = vec4(cosine, cosines.xyz);
+        } else if cosine > cosines.y {
+            nearest = vec4(nearest.x, i, nearest.yz);
+            cosines = vec4(cosines.x, cosine, cosines.yz);
+        } else if cosine > cosines.z {
+            nearest = vec4(nearest.xy, i, nearest.z);
+            cosines = vec4(cosines.xy, cosine, cosines.z);
+        } else if cosine > cosines.w {
+            nearest.w = i;
+            cosines.w = cosine;
+        }
+    }
+    var slots: array<Slot, 3>;
+    slots[0].orientation = nearest.x;
+    slots[1].orientation = nearest.y;
+    slots[2].orientation = nearest.z;
+    if crown.sphere != 0u {
+        let angles = acos(clamp(cosines, vec4(-1.0), vec4(1.0)));
+        let gains = max(angles.www - angles.xyz, vec3(1e-6));
+        let weights = gains / (gains.x + gains.y + gains.z);
+        slots[0].weight = weights.x;
+        slots[1].weight = weights.y;
+        slots[2].weight = weights.z;
+    } else {
+        var primary = 1.0;
+        if count > 1u {
+            primary = primary_opacity(
+                crown.orientations[nearest.x].direction, crown.orientations[nearest.y].direction, eye);
+        }
+        let rise = select(0.0, smoothstep(RISE.x, RISE.y, abs(eye.y)), vertical);
+        slots[0].weight = primary * (1.0 - rise);
+        slots[1].weight = (1.0 - primary) * (1.0 - rise);
+        slots[2] = Slot(crown.orientation_count - 1u, rise);
+    }
+#ifdef CROWN_PAPER_ORDER
+    let kept = slots[0];
+    slots[0] = slots[1];
+    slots[1] = kept;
+    return slots;
+#else
+    return swapped(swapped(swapped(slots, 0u, 1u), 1u, 2u), 0u, 1u);
+#endif
+}
+
+// The level, and the share of it; the rest is the next coarser one's.
+fn levels(distance: f32) -> vec2<f32> {
+#ifdef CROWN_PAPER_ORDER
+    return vec2(0.0, 1.0);
+#else
+    let passed = vec2(distance) >= crown.switches * (1.0 + FADE);
+    let level = u32(passed.x) + u32(passed.y);
+    if level + 1u >= crown.levels.w {
+        return vec2(f32(level), 1.0);
+    }
+    let at = crown.switches[level];
+    return vec2(f32(level), 1.0 - smoothstep(at * (1.0 - FADE), at * (1.0 + FADE), distance));
+#endif
+}
+
+fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
+    return min(weight * (1.0 + correction * (1.0 - greatest)), 1.0);
+}
+
+// The slice that is drawn in the `number`th place, far to near, for an eye in a direction (unit) from the centroid and so
+// many radii away; of no opacity where there is none.
+fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
+    let slots = slots(direction);
+    let detail = levels(distance);
+    let greatest_weight = max(max(slots[0].weight, slots[1].weight), slots[2].weight);
+    let greatest = greatest_weight * max(detail.y, 1.0 - detail.y);
+    // The coarser level comes first, where it shows at all.
+    var level = u32(detail.x);
+    var share = detail.y;
+    var place = number;
+    if share < 1.0 {
+        let coarse = crown.levels[level + 1u] * SLOTS;
+        if place < coarse {
+            level += 1u;
+            share = 1.0 - share;
+        } else {
+            place -= coarse;
+        }
+    }
+    let count = crown.levels[level];
+    let rank = place / SLOTS;
+    if rank >= count || rank < crown.left_out {
+        return DrawnSlice(0u, 0u, 0u, 0.0);
+    }
+    var slot = slots[0];
+    if place % SLOTS == 1u {
+        slot = slots[1];
+    } else if place % SLOTS == 2u {
+        slot = slots[2];
+    }
+    let faces = dot(crown.orientations[slot.orientation].direction, direction) >= 0.0;
+    return DrawnSlice(
+        slot.orientation,
+        level,
+        select(count - 1u - rank, rank, faces),
+        corrected(slot.weight * share, greatest, crown.correction),
+    );
+}
+
+// The slices that cast shadows for light from a direction: those of the nearest orientation, in the finest level.
+fn cast_slice(number: u32, direction: vec3<f32>) -> DrawnSlice {
+    var nearest = 0u;
+    var greatest = -2.0;
+    for (var i = 0u; i < crown.orientation_count; i += 1u) {
+        let cosine = dot(crown.orientations[i].direction, direction);
+        if cosine > greatest {
+            nearest = i;
+            greatest = cosine;
+        }
+    }
+    return DrawnSlice(nearest, 0u, number, select(0.0, 1.0, number < crown.levels.x));
+}

@@ -1,0 +1,137 @@
+#define_import_path bevy_verdure::slicing::place
+
+// The vertex stage of all passes: where the corners of slices are.
+
+#import bevy_pbr::mesh_bindings::mesh
+#import bevy_pbr::mesh_view_bindings::view
+#import bevy_render::globals::Globals
+#import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
+#import bevy_verdure::slicing::types::{crown, octagons, first_layer}
+#import bevy_verdure::slicing::blend::{drawn_slice, cast_slice}
+#import bevy_verdure::wind::sway
+
+#ifdef PREPASS_PIPELINE
+@group(0) @binding(1) var<uniform> globals: Globals;
+#else
+#import bevy_pbr::mesh_view_bindings::globals
+#endif
+
+// How far slices near to the eye flutter besides, as a share of the crown's sway.
+const FLUTTER: f32 = 0.25;
+
+struct Corner {
+    @builtin(instance_index) instance_index: u32,
+    @location(0) corner: u32,
+}
+
+struct Varying {
+    @builtin(position) position: vec4<f32>,
+    @location(0) world_position: vec4<f32>,
+    @location(1) uv: vec2<f32>,
+    @location(2) @interpolate(flat) layer: u32,
+    @location(3) @interpolate(flat) opacity: f32,
+    @location(4) @interpolate(flat) instance_index: u32,
+    // Orientation of the slice, and in the sign whether its back is seen.
+    @location(5) @interpolate(flat) orientation: i32,
+    @location(6) local_position: vec3<f32>,
+}
+
+fn world_from_local(instance_index: u32) -> mat3x3<f32> {
+    let m = mesh[instance_index].world_from_local;
+    return transpose(mat3x3(m[0].xyz, m[1].xyz, m[2].xyz));
+}
+
+fn local_from_world(instance_index: u32) -> mat3x3<f32> {
+    return transpose(mat2x4_f32_to_mat3x3_unpack(
+        mesh[instance_index].local_from_world_transpose_a,
+        mesh[instance_index].local_from_world_transpose_b,
+    ));
+}
+
+fn is_orthographic() -> bool {
+    return view.clip_from_view[3].w == 1.0;
+}
+
+// Where the eye is, from the centroid, in local space, measured in radii. An orthographic eye is so near that the finest
+// level is drawn.
+fn eye_from_centroid(instance_index: u32) -> vec3<f32> {
+    let to_local = local_from_world(instance_index);
+    if is_orthographic() {
+        return normalize(to_local * view.world_from_view[2].xyz) * 1e-3;
+    }
+    let m = mesh[instance_index].world_from_local;
+    let origin = vec3(m[0].w, m[1].w, m[2].w);
+    return (to_local * (view.world_position - origin) - crown.centroid) / crown.radius;
+}
+
+fn place_corner(in: Corner) -> Varying {
+    var out: Varying;
+    // What is not drawn collapses to a point outside the view.
+    out.position = vec4(0.0, 0.0, -2.0, 1.0);
+    out.instance_index = in.instance_index;
+    let eye = eye_from_centroid(in.instance_index);
+    let distance = length(eye);
+    let direction = select(vec3(0.0, 0.0, 1.0), eye / distance, distance > 0.0);
+#ifdef CROWN_LIGHT_VIEW
+    let slice = cast_slice(in.corner >> 3u, direction);
+#else
+    let slice = drawn_slice(in.corner >> 3u, direction, distance);
+#endif
+    if slice.opacity <= 0.0 {
+        return out;
+    }
+    let o = crown.orientations[slice.orientation];
+    let count = crown.levels[slice.level];
+    let layer = first_layer(slice.level, slice.orientation) + slice.index;
+    let pair = octagons[layer * 4u + (in.corner & 7u) / 2u];
+#ifdef CROWN_FRAMES
+    // The whole quad, so that its frame shows.
+    var quad = array(
+        vec2(1.0, 0.5), vec2(1.0, 1.0), vec2(0.5, 1.0), vec2(0.0, 1.0),
+        vec2(0.0, 0.5), vec2(0.0, 0.0), vec2(0.5, 0.0), vec2(1.0, 0.0));
+    let uv = quad[in.corner & 7u];
+#else
+    let uv = select(pair.xy, pair.zw, (in.corner & 1u) == 1u);
+#endif
+    let size = o.high - o.low;
+    let spacing = size.z / f32(count);
+    var depth = o.low.z + (f32(slice.index) + 0.5) * spacing;
+#ifdef CROWN_LIGHT_VIEW
+    // Leaves lie up to half the spacing before and behind the slice that their light meets, and before and behind that
+    // which the eye sees: cast from a little deeper, few shade themselves, and those of one slice still shade each other.
+    depth -= 0.25 * spacing;
+#endif
+    let local = crown.centroid
+        + o.right * (o.low.x + uv.x * size.x)
+        + o.up * (o.high.y - uv.y * size.y)
+        + o.direction * depth;
+
+    let m = mesh[in.instance_index].world_from_local;
+    let origin = vec3(m[0].w, m[1].w, m[2].w);
+    var moved = vec3(0.0);
+    if any(crown.wind.xyz != vec3(0.0)) {
+        let foot_height = crown.centroid.y - crown.radius;
+        let height = clamp((local.y - foot_height) / (2.0 * crown.radius), 0.0, 1.0);
+        moved = sway(crown.wind.xyz, origin, height, crown.flexibility, globals.time);
+        // Near slices move more than far ones, each in its own time.
+        let nearness = (f32(slice.index) + 0.5) / f32(count);
+        moved *= 1.0 + FLUTTER * nearness * sin(5.3 * globals.time + 2.4 * f32(slice.index) + dot(origin.xz, vec2(1.7)));
+    }
+    // Relative to the eye, so that a plant 10 km from the origin is as steady as one at the origin.
+    let from_eye = world_from_local(in.instance_index) * local + (origin - view.world_position) + moved;
+    let v = view.view_from_world;
+    var clip = view.clip_from_view * vec4(mat3x3(v[0].xyz, v[1].xyz, v[2].xyz) * from_eye, 1.0);
+#ifdef CROWN_LIGHT_VIEW
+    // What is nearer to the sun than its shadow map casts shadows all the same.
+    clip.z = min(clip.z, 1.0);
+#endif
+    out.position = clip;
+    out.world_position = vec4(from_eye + view.world_position, 1.0);
+    out.local_position = local;
+    out.uv = uv;
+    out.layer = layer;
+    out.opacity = slice.opacity;
+    let number = i32(slice.orientation) + 1;
+    out.orientation = select(-number, number, dot(o.direction, direction) >= 0.0);
+    return out;
+}

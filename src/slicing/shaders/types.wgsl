@@ -1,0 +1,43 @@
+#define_import_path bevy_verdure::slicing::types
+
+// A slicing's shape, as material.rs writes it.
+
+struct Orientation {
+    direction: vec3<f32>,
+    right: vec3<f32>,
+    up: vec3<f32>,
+    // Corners of the slicing box along right, up and direction, from the centroid.
+    low: vec3<f32>,
+    high: vec3<f32>,
+}
+
+struct Crown {
+    centroid: vec3<f32>,
+    radius: f32,
+    // Slices of each level of detail; w is the number of levels.
+    levels: vec4<u32>,
+    switches: vec2<f32>,
+    correction: f32,
+    left_out: u32,
+    orientation_count: u32,
+    sphere: u32,
+    vertical: u32,
+    flexibility: f32,
+    // xyz: velocity.
+    wind: vec4<f32>,
+    orientations: array<Orientation, 32>,
+}
+
+@group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> crown: Crown;
+// Four times two corners a layer.
+@group(#{MATERIAL_BIND_GROUP}) @binding(1) var<storage, read> octagons: array<vec4<f32>>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(2) var color_texture: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(3) var slice_sampler: sampler;
+@group(#{MATERIAL_BIND_GROUP}) @binding(4) var normal_texture: texture_2d_array<f32>;
+
+fn first_layer(level: u32, orientation: u32) -> u32 {
+    var before = 0u;
+    if level > 0u { before += crown.levels.x; }
+    if level > 1u { before += crown.levels.y; }
+    return before * crown.orientation_count + orientation * crown.levels[level];
+}

@@ -1,0 +1,237 @@
+//! The baked crown: what is promised of it.
+
+use bevy::asset::Asset;
+use bevy::math::{Vec2, Vec3};
+use bevy::reflect::Reflect;
+
+use super::error::SlicingError;
+use super::limits::{
+    MAX_LAYERS, MAX_LEVELS, MAX_ORIENTATIONS, MAX_PIXELS, MAX_PIXELS_TOTAL, MAX_SLICES,
+};
+use super::octagon::{Octagon, octagon};
+use super::orientation::Orientation;
+use super::pyramid::{color_levels, normal_levels};
+
+/// Pixels that a trimmed slice has to spare round its opaque ones, for filtering.
+const MARGIN: f32 = 2.0;
+
+/// A crown baked into slicings, in several orientations and levels of detail. Bake one with
+/// [`bake`](super::bake()), or load a `*.slicing.ron` file; draw it with [`SlicedCrown`](super::SlicedCrown).
+///
+/// Layers are counted by level of detail, then orientation, then slice, the one furthest from the eye first.
+#[derive(Asset, Clone, Debug, PartialEq, Reflect)]
+#[reflect(opaque)]
+#[reflect(Clone, Debug, PartialEq)]
+pub struct Slicing {
+    pub(super) shape: SlicingShape,
+    /// sRGB colours with alpha: all pixels of the first layer row by row, then the next.
+    pub(super) color: Vec<[u8; 4]>,
+    /// Local normals, −1..1 as 0..255, and the light from around that comes in, 0..1 as 0..255.
+    pub(super) normal: Vec<[u8; 4]>,
+    pub(super) octagons: Vec<Octagon>,
+}
+
+/// All of a [`Slicing`] but its pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlicingShape {
+    /// c_s: the centre of all slicing boxes (§2.1), local space, metres.
+    pub centroid: Vec3,
+    /// Radius of the ball round the centroid that holds the crown, in metres.
+    pub radius: f32,
+    /// Pixels along each side of a slice, a power of two.
+    pub pixels: u32,
+    /// Slices of an orientation in each level of detail, the finest level first.
+    pub levels: Vec<u32>,
+    /// Distances, in radii, at which each level gives over to the next; one fewer than levels.
+    pub switches: Vec<f32>,
+    /// m_s: how much more opaque blended slicings are drawn (§2.3).
+    pub correction: f32,
+    /// Whether orientations are spread over the sphere, so that the three nearest blend; else the two nearest do.
+    pub sphere: bool,
+    /// Whether the last orientation looks down, and joins in as the eye rises.
+    pub vertical: bool,
+    /// The orientations, the vertical one last.
+    pub orientations: Vec<Orientation>,
+}
+
+impl SlicingShape {
+    /// Slices of all levels and orientations.
+    pub fn layers(&self) -> usize {
+        let slices: u64 = self.levels.iter().map(|slices| u64::from(*slices)).sum();
+        let layers = slices.saturating_mul(self.orientations.len() as u64);
+        usize::try_from(layers).unwrap_or(usize::MAX)
+    }
+
+    /// Index of the first layer of an orientation in a level.
+    pub fn first_layer(&self, level: usize, orientation: usize) -> usize {
+        let before: u32 = self.levels[..level].iter().sum();
+        before as usize * self.orientations.len() + orientation * self.levels[level] as usize
+    }
+
+    /// Corner of slice `index` of a level at a place in its picture; local space.
+    pub fn place(&self, orientation: usize, level: usize, index: u32, uv: Vec2) -> Vec3 {
+        let o = &self.orientations[orientation];
+        let size = o.high - o.low;
+        self.centroid
+            + o.right * (o.low.x + uv.x * size.x)
+            + o.up * (o.high.y - uv.y * size.y)
+            + o.direction * o.offset(index, self.levels[level])
+    }
+
+    pub(super) fn check(&self) -> Result<(), SlicingError> {
+        let count = |what, value: usize, least, most| {
+            if (least..=most).contains(&value) {
+                Ok(())
+            } else {
+                Err(SlicingError::Count {
+                    what,
+                    value,
+                    least,
+                    most,
+                })
+            }
+        };
+        count("orientations", self.orientations.len(), 1, MAX_ORIENTATIONS)?;
+        count("levels", self.levels.len(), 1, MAX_LEVELS)?;
+        for slices in &self.levels {
+            count("slices", *slices as usize, 1, MAX_SLICES as usize)?;
+        }
+        count(
+            "layers (orientations times slices)",
+            self.layers(),
+            1,
+            MAX_LAYERS,
+        )?;
+        if !self.pixels.is_power_of_two() || self.pixels > MAX_PIXELS {
+            return Err(SlicingError::Pixels {
+                pixels: self.pixels,
+            });
+        }
+        let total = self.layers() as u64 * u64::from(self.pixels).pow(2);
+        if total > MAX_PIXELS_TOTAL {
+            return Err(SlicingError::TotalPixels { total });
+        }
+        if self.switches.len() + 1 != self.levels.len() {
+            return Err(SlicingError::Switches {
+                switches: self.switches.len(),
+                levels: self.levels.len(),
+            });
+        }
+        let rises = self
+            .switches
+            .windows(2)
+            .all(|pair| 1.25 * pair[0] <= pair[1]);
+        if !rises || !self.switches.iter().all(|at| at.is_finite() && *at > 0.0) {
+            return Err(SlicingError::SwitchOrder);
+        }
+        let number = |what, value: f32, is_right: bool| {
+            if is_right && value.is_finite() {
+                Ok(())
+            } else {
+                Err(SlicingError::Number { what, value })
+            }
+        };
+        number("radius", self.radius, self.radius > 0.0)?;
+        number(
+            "correction",
+            self.correction,
+            (0.0..=4.0).contains(&self.correction),
+        )?;
+        number("centroid", self.centroid.length_squared(), true)?;
+        for (index, o) in self.orientations.iter().enumerate() {
+            let unit = |v: Vec3| (v.length_squared() - 1.0).abs() < 1e-3;
+            let square = o.right.dot(o.up).abs()
+                + o.up.dot(o.direction).abs()
+                + o.direction.dot(o.right).abs();
+            let has_room = (o.high - o.low).min_element() > 0.0;
+            let finite = o.low.is_finite() && o.high.is_finite();
+            let axes = unit(o.right) && unit(o.up) && unit(o.direction) && square < 3e-3;
+            if !(axes && has_room && finite) {
+                return Err(SlicingError::Orientation { index });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Slicing {
+    /// A slicing of its shape and its pictures, each layer's pixels row by row.
+    ///
+    /// # Errors
+    /// When counts or numbers are out of range, or pictures of another size.
+    pub fn new(
+        shape: SlicingShape,
+        color: Vec<[u8; 4]>,
+        normal: Vec<[u8; 4]>,
+    ) -> Result<Self, SlicingError> {
+        shape.check()?;
+        let layer = (shape.pixels * shape.pixels) as usize;
+        for found in [color.len(), normal.len()] {
+            let expected = shape.layers() * layer;
+            if found != expected {
+                return Err(SlicingError::PictureSize { expected, found });
+            }
+        }
+        let octagons = color
+            .chunks_exact(layer)
+            .map(|pixels| {
+                octagon(shape.pixels, MARGIN, |x, y| {
+                    pixels[(y * shape.pixels + x) as usize][3] > 0
+                })
+            })
+            .collect();
+        Ok(Self {
+            shape,
+            color,
+            normal,
+            octagons,
+        })
+    }
+
+    /// All but the pictures.
+    pub fn shape(&self) -> &SlicingShape {
+        &self.shape
+    }
+
+    /// The trimmed outlines of all layers, in texture coordinates.
+    pub fn octagons(&self) -> &[Octagon] {
+        &self.octagons
+    }
+
+    /// Colours of a layer, row by row: sRGB with alpha.
+    pub fn color(&self, layer: usize) -> &[[u8; 4]] {
+        let size = (self.shape.pixels * self.shape.pixels) as usize;
+        &self.color[layer * size..(layer + 1) * size]
+    }
+
+    /// Normals of a layer, row by row: −1..1 as 0..255, and the light from around that comes in.
+    pub fn normal(&self, layer: usize) -> &[[u8; 4]] {
+        let size = (self.shape.pixels * self.shape.pixels) as usize;
+        &self.normal[layer * size..(layer + 1) * size]
+    }
+
+    /// Bytes on the GPU, mip levels included.
+    pub fn gpu_bytes(&self) -> u64 {
+        let levels = self.shape.pixels.ilog2() + 1;
+        let layer: u64 = (0..levels)
+            .map(|level| u64::from(self.shape.pixels >> level).pow(2))
+            .sum();
+        2 * 4 * layer * self.shape.layers() as u64
+    }
+
+    /// The bytes of both texture arrays, layer by layer with their mip levels.
+    pub(crate) fn texture_bytes(&self) -> [Vec<u8>; 2] {
+        let size = self.shape.pixels;
+        let (mut colors, mut normals) = (Vec::new(), Vec::new());
+        for layer in 0..self.shape.layers() {
+            let color = self.color(layer);
+            colors.extend(color_levels(color, size).into_iter().flatten());
+            normals.extend(
+                normal_levels(self.normal(layer), color, size)
+                    .into_iter()
+                    .flatten(),
+            );
+        }
+        [colors, normals]
+    }
+}

@@ -1,0 +1,225 @@
+//! Slicings from files, right and wrong.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use bevy::asset::{AssetPlugin, LoadState};
+use bevy::prelude::*;
+use bevy_verdure::lab::{load_model, save_slicing};
+use bevy_verdure::prelude::*;
+use bevy_verdure::slicing::SlicingLoader;
+
+use super::CROWN;
+
+/// A folder of this test's own, emptied.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("slicing_{name}"));
+    // It may not be there yet.
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for the test");
+    folder
+}
+
+fn edit(path: &Path, old: &str, new: &str) {
+    let text = std::fs::read_to_string(path).expect("the slicing's text");
+    assert!(text.contains(old), "{old}");
+    std::fs::write(path, text.replacen(old, new, 1)).expect("the slicing's text can be changed");
+}
+
+#[test]
+fn what_is_saved_is_read_back_pixel_by_pixel() {
+    let folder = folder("saved");
+    let report = save_slicing(&CROWN, &folder, "crown").expect("the folder can be written to");
+    assert_eq!(report.files.len(), 1 + 2 * CROWN.shape().orientations.len());
+    let size: u64 = report
+        .files
+        .iter()
+        .map(|file| file.metadata().map_or(0, |data| data.len()))
+        .sum();
+    assert_eq!(size, report.bytes);
+    assert_eq!(
+        Slicing::read(&folder.join("crown.slicing.ron")).as_ref(),
+        Ok(&*CROWN)
+    );
+}
+
+#[test]
+fn wrong_files_are_refused_with_the_file_and_the_fix() {
+    let folder = folder("wrong");
+    let path = folder.join("crown.slicing.ron");
+    let refusal = |spoil: &dyn Fn()| {
+        save_slicing(&CROWN, &folder, "crown").expect("the folder can be written to");
+        spoil();
+        Slicing::read(&path).unwrap_err().to_string()
+    };
+    let missing = refusal(&|| {
+        std::fs::remove_file(folder.join("crown.2.normal.png")).expect("the picture is there");
+    });
+    assert!(
+        missing.contains("crown.2.normal.png: cannot be read"),
+        "{missing}"
+    );
+    let other = refusal(&|| {
+        std::fs::copy(
+            "assets/plants/stone_color.png",
+            folder.join("crown.1.color.png"),
+        )
+        .expect("a picture");
+    });
+    assert!(
+        other.contains("crown.1.color.png: is ") && other.contains("bake it anew"),
+        "{other}"
+    );
+    let cut = refusal(&|| {
+        let file = folder.join("crown.1.color.png");
+        let bytes = std::fs::read(&file).expect("the picture");
+        std::fs::write(&file, &bytes[..bytes.len() / 2]).expect("the picture can be changed");
+    });
+    assert!(cut.contains("crown.1.color.png: is no picture"), "{cut}");
+    for (old, new, what) in [
+        (
+            "pixels: 64",
+            "pixels: 32",
+            "crown.0.color.png: is 64 × 576 pixels",
+        ),
+        ("        5,\n", "        0,\n", "the number of slices is 0"),
+        (
+            "        5,\n",
+            "        1000000,\n",
+            "the number of slices is 1000000",
+        ),
+        ("radius:", "girth:", "girth"),
+    ] {
+        let message = refusal(&|| edit(&path, old, new));
+        assert!(message.contains(what), "{message}");
+    }
+    std::fs::remove_file(&path).expect("the slicing's text is there");
+    let gone = Slicing::read(&path).unwrap_err().to_string();
+    assert!(gone.contains("crown.slicing.ron: cannot be read"), "{gone}");
+}
+
+#[test]
+fn the_asset_server_loads_a_crown_and_a_bad_reload_keeps_the_last_good_one() {
+    let folder = folder("served");
+    save_slicing(&CROWN, &folder, "crown").expect("the folder can be written to");
+    let mut app = App::new();
+    app.add_plugins((
+        MinimalPlugins,
+        AssetPlugin {
+            file_path: folder.to_string_lossy().into_owned(),
+            ..default()
+        },
+    ))
+    .init_asset::<Slicing>()
+    .register_asset_loader(SlicingLoader);
+    let server = app.world().resource::<AssetServer>().clone();
+    let handle: Handle<Slicing> = server.load("crown.slicing.ron");
+    let wait = |app: &mut App, until: &dyn Fn(Option<LoadState>) -> bool| {
+        let started = Instant::now();
+        // What is waited for is a change, not a speed.
+        while !until(server.get_load_state(&handle)) {
+            assert!(
+                started.elapsed() < Duration::from_secs(60),
+                "{:?}",
+                server.get_load_state(&handle)
+            );
+            app.update();
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        app.update();
+    };
+    wait(&mut app, &|state| matches!(state, Some(LoadState::Loaded)));
+    let is_crown =
+        |app: &App| app.world().resource::<Assets<Slicing>>().get(&handle) == Some(&*CROWN);
+    assert!(is_crown(&app));
+    edit(
+        &folder.join("crown.slicing.ron"),
+        "pixels: 64",
+        "pixels: 63",
+    );
+    server.reload("crown.slicing.ron");
+    wait(&mut app, &|state| {
+        matches!(state, Some(LoadState::Failed(_)))
+    });
+    assert!(is_crown(&app));
+    let Some(LoadState::Failed(error)) = server.get_load_state(&handle) else {
+        unreachable!("it has just failed");
+    };
+    assert!(
+        error
+            .to_string()
+            .contains("crown.slicing.ron: pixels is 63"),
+        "{error}"
+    );
+}
+
+/// A binary glTF of a node at x = 2 with a triangle of 1 m, red, whose index buffer is `indices`.
+fn glb(indices: [u16; 3], mode: u32) -> Vec<u8> {
+    let json = format!(
+        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"translation":[2,0,0]}}],
+        "meshes":[{{"name":"twig","primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"material":0,"mode":{mode}}}]}}],
+        "materials":[{{"name":"leaf","pbrMetallicRoughness":{{"baseColorFactor":[1,0,0,1]}}}}],
+        "buffers":[{{"byteLength":44}}],
+        "bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":6}}],
+        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+        {{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}}]}}"#
+    );
+    let mut json = json.into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let corners: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut data: Vec<u8> = corners
+        .iter()
+        .flatten()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
+    data.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
+    data.resize(44, 0);
+    let mut file = b"glTF".to_vec();
+    let length = 12 + 8 + json.len() + 8 + data.len();
+    for number in [2, length as u32, json.len() as u32] {
+        file.extend(number.to_le_bytes());
+    }
+    file.extend(b"JSON");
+    file.extend(json);
+    file.extend((data.len() as u32).to_le_bytes());
+    file.extend(b"BIN\0");
+    file.extend(data);
+    file
+}
+
+#[test]
+fn models_are_read_from_gltf_or_refused_by_name() {
+    let path = folder("model").join("twig.glb");
+    let read = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).expect("the model can be written");
+        load_model(&path)
+    };
+    let parts = read(&glb([0, 1, 2], 4)).expect("a triangle");
+    let [part] = parts.as_slice() else {
+        panic!("{parts:?}")
+    };
+    assert_eq!(
+        (part.mesh.as_str(), part.material.as_str()),
+        ("twig", "leaf")
+    );
+    let triangle = part.crown.triangles[0];
+    assert_eq!(
+        triangle.positions(),
+        [Vec3::X * 2.0, Vec3::X * 3.0, Vec3::new(2.0, 1.0, 0.0)]
+    );
+    assert_eq!(triangle.vertices[0].normal.normalize(), Vec3::Z);
+    assert_eq!(part.crown.materials[0].color, [1.0, 0.0, 0.0, 1.0]);
+    let whole = glb([0, 1, 2], 4);
+    for (bytes, what) in [
+        (glb([0, 1, 7], 4), "`twig`: triangle 0 names vertex 7 of 3"),
+        (glb([0, 1, 2], 5), "`twig` is not a list of triangles"),
+        (whole[..40].to_vec(), "is no glTF"),
+        (b"solid".to_vec(), "is no glTF"),
+    ] {
+        let message = read(&bytes).unwrap_err();
+        assert!(
+            message.contains("twig.glb: ") && message.contains(what),
+            "{message}"
+        );
+    }
+}

@@ -1,0 +1,159 @@
+//! Crowns that change while they are on screen.
+
+use std::time::{Duration, Instant};
+
+use bevy::prelude::*;
+use bevy::render::error_handler::{ErrorType, RenderErrorHandler, RenderErrorPolicy};
+use bevy::render::render_resource::PollType;
+use bevy::render::renderer::RenderDevice;
+use bevy_verdure::lab::{Lens, Studio};
+use bevy_verdure::prelude::*;
+use bevy_verdure::slicing::{SlicedCrownMaterial, SlicingShape};
+
+use super::{CROWN, UNLIT, covered, eye, mean, plant, shot, studio};
+
+#[test]
+fn tints_settings_and_wind_follow_the_components() {
+    let look = shot(eye(75.0, 10.0, 16.0));
+    let (mut studio, crown) = studio(UNLIT);
+    let plain = studio.photograph(&look, Color::BLACK);
+    let mut change = |change: &mut dyn FnMut(&mut World)| {
+        change(studio.world());
+        studio.headless.step();
+        studio.photograph(&look, Color::BLACK)
+    };
+    let red = change(&mut |world| {
+        world
+            .entity_mut(crown)
+            .insert(CrownTint(Color::srgb(1.0, 0.0, 0.0)));
+    });
+    assert!(mean(&red, 1) < 0.5 && (mean(&red, 0) - mean(&plain, 0)).abs() < 0.5);
+    let back = change(&mut |world| {
+        world.entity_mut(crown).insert(CrownTint::default());
+    });
+    assert_eq!(back.rgb_bytes(), plain.rgb_bytes());
+    let fewer = change(&mut |world| {
+        world.entity_mut(crown).insert(CrownSettings {
+            left_out: 3,
+            ..UNLIT
+        });
+    });
+    assert!(mean(&fewer, 1) < mean(&plain, 1));
+    change(&mut |world| {
+        world.entity_mut(crown).insert(UNLIT);
+    });
+    let windy = change(&mut |world| world.insert_resource(Wind::new(Vec3::X * 9.0)));
+    assert_ne!(windy.rgb_bytes(), plain.rgb_bytes());
+    let still = change(&mut |world| world.insert_resource(Wind::default()));
+    assert_eq!(still.rgb_bytes(), plain.rgb_bytes());
+}
+
+#[test]
+fn an_edited_slicing_shows_and_a_crown_no_more_is_gone() {
+    let look = shot(eye(75.0, 10.0, 16.0));
+    let (mut studio, crown) = studio(UNLIT);
+    let plain = studio.photograph(&look, Color::BLACK);
+    // The same shape in pure blue, with one level.
+    let shape = SlicingShape {
+        levels: vec![CROWN.shape().levels[0]],
+        switches: Vec::new(),
+        ..CROWN.shape().clone()
+    };
+    let layers = shape.layers();
+    let pixels = |of: &dyn Fn(usize) -> Vec<[u8; 4]>| (0..layers).flat_map(of).collect::<Vec<_>>();
+    let blue = pixels(&|layer| {
+        CROWN
+            .color(layer)
+            .iter()
+            .map(|p| [0, 0, 255, p[3]])
+            .collect()
+    });
+    let normal = pixels(&|layer| CROWN.normal(layer).to_vec());
+    let edited = Slicing::new(shape, blue, normal).expect("one level of the crown is a slicing");
+    let id = studio
+        .world()
+        .entity(crown)
+        .get::<SlicedCrown>()
+        .expect("a crown")
+        .0
+        .id();
+    let inserted = studio
+        .world()
+        .resource_mut::<Assets<Slicing>>()
+        .insert(id, edited);
+    assert!(inserted.is_ok());
+    for _ in 0..2 {
+        studio.headless.step();
+    }
+    let seen = studio.photograph(&look, Color::BLACK);
+    assert!(mean(&seen, 1) < 0.1 && mean(&seen, 2) > mean(&plain, 2) + 10.0);
+    studio.world().entity_mut(crown).remove::<SlicedCrown>();
+    studio.headless.step();
+    let gone = studio.photograph(&look, Color::BLACK);
+    assert_eq!(covered(&gone, [0; 3]), 0);
+    studio.headless.step();
+    let left = studio
+        .world()
+        .resource::<Assets<SlicedCrownMaterial>>()
+        .len();
+    assert_eq!(left, 0, "what no crown uses is forgotten");
+}
+
+#[test]
+fn far_crowns_have_fewer_slices_and_no_change_of_brightness() {
+    let (mut studio, _) = studio(UNLIT);
+    let radius = CROWN.shape().radius;
+    // From 8 to 30 radii, with a lens that keeps the crown's size.
+    let mut greens = Vec::new();
+    for step in 0..=44 {
+        let distance = radius * (8.0 + 0.5 * step as f32);
+        let mut look = shot(eye(15.0, 3.0, distance));
+        look.lens = Lens::Perspective(2.0 * (1.3 * radius / distance).atan());
+        greens.push(mean(&studio.photograph(&look, Color::WHITE), 2));
+    }
+    for (step, pair) in greens.windows(2).enumerate() {
+        // Of 0 to 255 over a picture that the crown fills half.
+        assert!((pair[1] - pair[0]).abs() < 6.0, "{step}: {pair:?}");
+    }
+    plant(&mut studio, UNLIT, Transform::from_xyz(0.0, 0.0, -3.0));
+}
+
+/// How many devices an app has had.
+#[derive(Resource, Default)]
+struct Devices(usize);
+
+#[test]
+fn crowns_come_back_after_their_device_is_lost() {
+    let mut studio = Studio::new(|app| {
+        app.insert_resource(RenderErrorHandler(|error, _, _| match error.ty {
+            ErrorType::DeviceLost => RenderErrorPolicy::Recover(default()),
+            _ => panic!("{error:?}"),
+        }))
+        .init_resource::<Devices>()
+        .add_systems(
+            Update,
+            (|mut devices: ResMut<Devices>| devices.0 += 1)
+                .run_if(resource_changed::<RenderDevice>),
+        );
+    });
+    plant(&mut studio, UNLIT, Transform::IDENTITY);
+    let look = shot(eye(75.0, 10.0, 16.0));
+    studio.headless.step();
+    let before = studio.photograph(&look, Color::BLACK);
+    assert!(covered(&before, [0; 3]) > 2000);
+    let lost = studio.world().resource::<RenderDevice>().clone();
+    lost.wgpu_device().destroy();
+    // An error here is the lost device's, which the next frame reports.
+    let _ = lost.poll(PollType::wait_indefinitely());
+    let patience = Instant::now() + Duration::from_secs(60);
+    while studio.world().resource::<Devices>().0 < 2 {
+        assert!(Instant::now() < patience, "no new device");
+        studio.headless.step();
+    }
+    // Bevy starts its renderer, and takes over assets, in the frames after.
+    for _ in 0..4 {
+        studio.headless.step();
+    }
+    let after = studio.photograph(&look, Color::BLACK);
+    assert_eq!(after.rgb_bytes(), before.rgb_bytes());
+}

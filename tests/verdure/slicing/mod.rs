@@ -1,0 +1,97 @@
+//! Crowns as they are drawn.
+
+mod agreement;
+mod files;
+mod live;
+mod passes;
+mod steady;
+
+use std::sync::LazyLock;
+
+use bevy::prelude::*;
+use bevy_verdure::lab::{Lens, Pixels, Shot, Studio};
+use bevy_verdure::plants::Broadleaf;
+use bevy_verdure::prelude::*;
+
+/// Size of the tests' pictures, in pixels.
+const SIZE: UVec2 = UVec2::new(160, 120);
+
+/// A small broadleaf, baked with 64² pixels a slice.
+static CROWN: LazyLock<Slicing> = LazyLock::new(|| {
+    let tree = Broadleaf {
+        twig_triangles: 900,
+        leaf_triangles: 2400,
+        leaf_length: 0.45,
+        ..default()
+    }
+    .grow(3);
+    let mut crown = CrownMesh::default();
+    let material = crown.add_material(CrownMaterial::default());
+    for (name, mesh) in [("twigs", &tree.twigs), ("leaves", &tree.leaves)] {
+        crown
+            .add_mesh(name, mesh, Mat4::IDENTITY, material)
+            .expect("a broadleaf's meshes can be baked");
+    }
+    let settings = BakeSettings {
+        samples: 2,
+        ..BakeSettings::default().with_pixels(64)
+    };
+    bake(&crown, &settings).expect("the settings are in range")
+});
+
+/// Colours of the pictures, as they are.
+const UNLIT: CrownSettings = CrownSettings {
+    composition: Composition::Blended,
+    order: SliceOrder::Steady,
+    left_out: 0,
+    lit: false,
+    frames: false,
+};
+
+/// A shot of the crown from `eye`.
+fn shot(eye: Vec3) -> Shot {
+    Shot {
+        eye,
+        at: CROWN.shape().centroid,
+        lens: Lens::Perspective(0.6),
+        size: SIZE,
+    }
+}
+
+/// An eye at an azimuth and an elevation, in degrees, and so many metres from the centroid.
+fn eye(azimuth: f32, elevation: f32, distance: f32) -> Vec3 {
+    let (sin, cos) = azimuth.to_radians().sin_cos();
+    let (rise, level) = elevation.to_radians().sin_cos();
+    CROWN.shape().centroid + Vec3::new(level * cos, rise, level * sin) * distance
+}
+
+/// Plants the crown.
+fn plant(studio: &mut Studio, settings: CrownSettings, transform: Transform) -> Entity {
+    let world = studio.world();
+    let slicing = world.resource_mut::<Assets<Slicing>>().add(CROWN.clone());
+    world
+        .spawn((SlicedCrown(slicing), settings, transform))
+        .id()
+}
+
+/// A studio with one crown.
+fn studio(settings: CrownSettings) -> (Studio, Entity) {
+    let mut studio = Studio::default();
+    let crown = plant(&mut studio, settings, Transform::IDENTITY);
+    studio.headless.step();
+    (studio, crown)
+}
+
+/// Pixels that differ from the background, in which the picture is empty.
+fn covered(picture: &Pixels, background: [u8; 3]) -> usize {
+    let all = (0..SIZE.y).flat_map(|y| (0..SIZE.x).map(move |x| (x, y)));
+    all.filter(|(x, y)| picture.rgb(*x, *y) != background)
+        .count()
+}
+
+/// Mean of a channel, 0 to 255.
+fn mean(picture: &Pixels, channel: usize) -> f64 {
+    let bytes = picture.rgb_bytes();
+    let all = bytes.chunks_exact(3).map(|rgb| f64::from(rgb[channel]));
+    all.sum::<f64>() / f64::from(SIZE.x * SIZE.y)
+}
