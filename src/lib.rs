@@ -7,6 +7,7 @@
 //! | [`skeleton`] | joints, segments, poses; files; what a plant is before it has a surface | |
 //! | [`frusta`] | solid parts: a cone round each segment, ray cast per pixel | `skeleton` |
 //! | [`plants`] | skeletons grown from a seed: palms, pines, cacti, and scenes of them | `skeleton` |
+//! | [`texel`] | repeated cover: a volume in slices, mapped on a surface (no drawing yet) | |
 //! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
 //!
 //! Arrows run one way: methods know `skeleton` at most and never each other, and nothing knows `lab`. Each folder's
@@ -20,6 +21,7 @@ pub mod frusta;
 pub mod lab;
 pub mod plants;
 pub mod skeleton;
+pub mod texel;
 
 use bevy::app::PluginGroupBuilder;
 use bevy::camera::visibility::VisibilitySystems;

@@ -14,6 +14,7 @@ pub mod reference;
 pub mod rivals;
 mod studio;
 mod supersample;
+pub mod texel;
 mod texture;
 mod timing;
 
