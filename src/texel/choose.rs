@@ -4,8 +4,8 @@ use bevy::math::{UVec3, Vec3, Vec4};
 
 use super::axis::SliceAxis;
 use super::criteria::{
-    choose_direction, count_exponent, depth_limit, direction_cost, sin_view_angle,
-    slices_for_depth, slices_for_pixels, tan_view_angle,
+    choose_direction, count_exponent, depth_limit, sin_view_angle, slices_for_depth,
+    slices_for_pixels, tan_view_angle,
 };
 use super::facet::{Facet, TexelFrame};
 use super::thickness::Thickness;
@@ -48,9 +48,22 @@ pub struct TexelView {
     pub half_spaces: [Vec4; 6],
 }
 
+/// By what the direction of slices is chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DirectionRule {
+    /// By h·tan(a), how far aside a slice stands from the next: the paper's, for one e of all directions.
+    #[default]
+    StepAside,
+    /// By h·tan(a)/e, the quality criterion with the e of each direction: the one that needs the fewest slices of all
+    /// there are.
+    Quality,
+}
+
 /// What may be seen of slices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TexelQuality {
+    /// By what the direction is chosen.
+    pub direction: DirectionRule,
     /// d, as a share of the narrowest thickness e; one half is the most that §4.1 allows, one the limit beyond which
     /// gaps show.
     pub depth: f32,
@@ -61,6 +74,7 @@ pub struct TexelQuality {
 impl Default for TexelQuality {
     fn default() -> Self {
         Self {
+            direction: DirectionRule::default(),
             depth: depth_limit(1.0),
             pixels: 1.0,
         }
@@ -120,17 +134,23 @@ pub fn choose(
     let mut c = [0.0; 3];
     let mut l = [0.0; 3];
     let mut h = [0.0; 3];
+    let mut e = [0.0; 3];
+    let mut step = [0.0; 3];
     for axis in SliceAxis::ALL {
         let i = axis.index();
         let (normal, length) = frame.normal_and_length(axis);
         c[i] = normal.dot(direction);
         l[i] = length;
         h[i] = length / measure.most[i] as f32;
+        e[i] = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
+        step[i] = match quality.direction {
+            DirectionRule::StepAside => h[i],
+            DirectionRule::Quality => h[i] / e[i],
+        };
     }
-    let i = choose_direction(c, h);
+    let i = choose_direction(c, step);
     let axis = SliceAxis::ALL[i];
-    let e = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
-    let for_depth = slices_for_depth(l[i], tan_view_angle(c[i]), quality.depth * e);
+    let for_depth = slices_for_depth(l[i], tan_view_angle(c[i]), quality.depth * e[i]);
     // The nearest that the facet can be, so that no part of it is drawn too coarsely. All of an orthographic view is
     // at one.
     let z = match view.direction {
@@ -142,7 +162,6 @@ pub fn choose(
     } else {
         f32::INFINITY
     };
-    debug_assert!(!direction_cost(c[i], h[i]).is_nan());
     Choice::Slices {
         axis,
         exponent: count_exponent(for_depth.min(for_pixels), measure.most[i]) as u8,
@@ -232,6 +251,34 @@ mod tests {
         assert_eq!(chosen(Vec3::new(0.05, -1.0, -0.1), 3.0).0, SliceAxis::V);
         assert_eq!(chosen(Vec3::new(1.0, 0.0, -0.49), 3.0).0, SliceAxis::U);
         assert_eq!(chosen(Vec3::new(1.0, 0.0, -0.51), 3.0).0, SliceAxis::W);
+    }
+
+    #[test]
+    fn by_quality_a_thick_direction_wins_over_a_fine_one() {
+        // Upright slices are four times further apart, but contours are ten times as thick there.
+        let mut measure = measure();
+        measure.thickness.narrowest = Vec3::new(0.2, 0.2, 0.02);
+        let view = looking(Vec3::new(1.0, 0.0, -1.0), 1.5);
+        let chosen = |direction| {
+            let quality = TexelQuality {
+                direction,
+                ..TexelQuality::default()
+            };
+            choose(&facet(), &measure, &view, &quality)
+        };
+        let axis_and_exponent = |choice| match choice {
+            Choice::Slices { axis, exponent, .. } => (axis, exponent),
+            Choice::LeftOut => panic!("it is in view"),
+        };
+        // N ≥ L·tan(45°)/(e/2): 0.25/0.01 and 1/0.1.
+        assert_eq!(
+            axis_and_exponent(chosen(DirectionRule::StepAside)),
+            (SliceAxis::W, 5)
+        );
+        assert_eq!(
+            axis_and_exponent(chosen(DirectionRule::Quality)),
+            (SliceAxis::U, 4)
+        );
     }
 
     #[test]

@@ -47,7 +47,9 @@ mod topology;
 mod volume;
 
 pub use axis::SliceAxis;
-pub use choose::{Choice, TexelQuality, TexelView, VolumeMeasure, choose, choose_all};
+pub use choose::{
+    Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose, choose_all,
+};
 pub use error::TexelError;
 pub use progress::{BuildStep, Progress, silent};
 pub use slice_sets::{SliceLevel, SliceSet, SliceSets};

@@ -51,8 +51,26 @@ impl Plane {
         depth
     }
 
-    /// Whether every opaque pixel of the slice is within a diameter of a point at least half of it deep.
-    pub fn is_near_deep(&self, depth_squared: &[f32], diameter: f32) -> bool {
+    /// Whether a pixel is part of the slice's own contour: opaque, and beside an empty one.
+    fn is_contour(&self, depth_squared: &[f32], index: usize) -> bool {
+        let half = self.spacing[0].max(self.spacing[1]) * 0.5;
+        self.solid[index] && depth_squared[index] <= half * half
+    }
+
+    /// Pixels of the slice's own contour.
+    pub fn contour_pixels(&self, depth_squared: &[f32]) -> usize {
+        let [columns, rows] = &self.own;
+        let row = |y: usize| {
+            let pixels = columns.clone().map(|x| y * self.size[0] + x);
+            pixels
+                .filter(|&index| self.is_contour(depth_squared, index))
+                .count()
+        };
+        rows.clone().map(row).sum()
+    }
+
+    /// How many of them are further than a diameter from all points at least half of it deep.
+    pub fn far_from_deep(&self, depth_squared: &[f32], diameter: f32) -> usize {
         let [width, height] = self.size;
         let deep = (diameter / 2.0) * (diameter / 2.0) * (1.0 - 1e-5);
         // Points are pixels' centres, so that one may lie half a pixel off.
@@ -67,29 +85,26 @@ impl Plane {
             let line = &mut along_rows[range.clone()];
             distance_in_row(&depth_squared[range.clone()], deep, self.spacing[0], line);
             if rows.contains(&row) {
-                let solid = &self.solid[range];
                 for x in columns.clone() {
-                    unsure[x] |= solid[x] && line[x] > near;
+                    let far = line[x] > near;
+                    unsure[x] |= far && self.is_contour(depth_squared, range.start + x);
                 }
             }
         }
         let mut envelope = Envelope::default();
+        let mut count = 0;
         for x in columns.clone().filter(|&x| unsure[x]) {
             envelope.clear();
             for y in 0..height {
                 envelope.add(y as f32 * self.spacing[1], along_rows[y * width + x]);
             }
-            let mut passes = true;
             let places = (0..height).map(|y| y as f32 * self.spacing[1]);
             envelope.evaluate(places, |y, value| {
-                let counts = rows.contains(&y) && self.solid[y * width + x];
-                passes &= !counts || value <= near;
+                let far = value > near && rows.contains(&y);
+                count += usize::from(far && self.is_contour(depth_squared, y * width + x));
             });
-            if !passes {
-                return false;
-            }
         }
-        true
+        count
     }
 }
 
