@@ -6,6 +6,7 @@
 //! | file | question |
 //! |---|---|
 //! | `voxels` | which voxel does a straight line through texture space meet first? Exact, voxel by voxel |
+//! | `slices` | what does the line meet of the slices that are drawn instead? |
 //! | `prism` | where is a point in the prism of a facet, and what does a ray meet in it? |
 //!
 //! Where the height vectors of a facet are equal, its texture space is an affine image of space: rays are straight
@@ -16,6 +17,7 @@
 //! Traversal Algorithm for Ray Tracing*, 1987.
 
 mod prism;
+mod slices;
 #[cfg(test)]
 mod tests;
 mod voxels;
@@ -25,6 +27,7 @@ use glam::{DVec2, DVec3, IVec2, UVec3};
 use crate::texel::ReferenceVolume;
 
 pub use prism::ReferencePrism;
+pub use slices::{SliceHit, march_slices};
 pub use voxels::{VoxelHit, march_voxels};
 
 /// A triangle with what its texels need, in any one space.

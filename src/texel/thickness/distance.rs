@@ -51,60 +51,47 @@ impl Plane {
         depth
     }
 
-    /// Whether a pixel is part of the slice's own contour: opaque, and beside an empty one.
-    fn is_contour(&self, depth_squared: &[f32], index: usize) -> bool {
-        let half = self.spacing[0].max(self.spacing[1]) * 0.5;
-        self.solid[index] && depth_squared[index] <= half * half
-    }
-
-    /// Pixels of the slice's own contour.
-    pub fn contour_pixels(&self, depth_squared: &[f32]) -> usize {
+    /// Pixels of the slice's own contour: opaque, and beside an empty one.
+    pub fn contour(&self, depth_squared: &[f32]) -> Vec<u32> {
         let [columns, rows] = &self.own;
-        let row = |y: usize| {
-            let pixels = columns.clone().map(|x| y * self.size[0] + x);
-            pixels
-                .filter(|&index| self.is_contour(depth_squared, index))
-                .count()
-        };
-        rows.clone().map(row).sum()
+        let half = self.spacing[0].max(self.spacing[1]) * 0.5;
+        let mut contour = Vec::new();
+        for row in rows.clone() {
+            for index in row * self.size[0] + columns.start..row * self.size[0] + columns.end {
+                if self.solid[index] && depth_squared[index] <= half * half {
+                    contour.push(index as u32);
+                }
+            }
+        }
+        contour
     }
 
-    /// How many of them are further than a diameter from all points at least half of it deep.
-    pub fn far_from_deep(&self, depth_squared: &[f32], diameter: f32) -> usize {
+    /// How many pixels of a contour are further than a diameter from all points at least half of it deep.
+    pub fn far_from_deep(&self, depth_squared: &[f32], contour: &[u32], diameter: f32) -> usize {
         let [width, height] = self.size;
         let deep = (diameter / 2.0) * (diameter / 2.0) * (1.0 - 1e-5);
         // Points are pixels' centres, so that one may lie half a pixel off.
         let slack = self.spacing[0].max(self.spacing[1]) * 0.5;
         let near = (diameter + slack) * (diameter + slack);
         let mut along_rows = vec![f32::INFINITY; width * height];
-        let [columns, rows] = &self.own;
-        // Most pixels are near enough in their own row; only columns with others are searched.
-        let mut unsure = vec![false; width];
         for row in 0..height {
             let range = row * width..(row + 1) * width;
             let line = &mut along_rows[range.clone()];
-            distance_in_row(&depth_squared[range.clone()], deep, self.spacing[0], line);
-            if rows.contains(&row) {
-                for x in columns.clone() {
-                    let far = line[x] > near;
-                    unsure[x] |= far && self.is_contour(depth_squared, range.start + x);
-                }
-            }
+            distance_in_row(&depth_squared[range], deep, self.spacing[0], line);
         }
-        let mut envelope = Envelope::default();
-        let mut count = 0;
-        for x in columns.clone().filter(|&x| unsure[x]) {
-            envelope.clear();
-            for y in 0..height {
-                envelope.add(y as f32 * self.spacing[1], along_rows[y * width + x]);
-            }
-            let places = (0..height).map(|y| y as f32 * self.spacing[1]);
-            envelope.evaluate(places, |y, value| {
-                let far = value > near && rows.contains(&y);
-                count += usize::from(far && self.is_contour(depth_squared, y * width + x));
-            });
-        }
-        count
+        // The nearest row first: most have a deep point in their own or the next.
+        let is_near = |index: usize, rows: isize| {
+            let step = rows as f32 * self.spacing[1];
+            let other = index as isize + rows * width as isize;
+            let inside = (0..along_rows.len() as isize).contains(&other);
+            inside && along_rows[other as usize] + step * step <= near
+        };
+        let reach = ((diameter + slack) / self.spacing[1]) as isize;
+        let far = contour.iter().filter(|&&index| {
+            let index = index as usize;
+            !(0..=reach).any(|rows| is_near(index, rows) || is_near(index, -rows))
+        });
+        far.count()
     }
 }
 

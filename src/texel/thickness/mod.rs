@@ -83,11 +83,10 @@ fn measure_axis(volume: &ReferenceVolume, opaque: &[bool], axis: SliceAxis) -> f
     let planes = parallel::map(count, |slice| {
         let plane = plane(volume, opaque, axis, slice as u32);
         let depth = plane.depth_squared();
-        (plane, depth)
+        let contour = plane.contour(&depth);
+        (plane, depth, contour)
     });
-    let contours = planes
-        .iter()
-        .map(|(plane, depth)| plane.contour_pixels(depth));
+    let contours = planes.iter().map(|(_, _, contour)| contour.len());
     let most_far = contours.sum::<usize>() / NARROW_SHARE;
     let spacing = planes[0].0.spacing;
     let pixel = spacing[0].min(spacing[1]);
@@ -96,10 +95,13 @@ fn measure_axis(volume: &ReferenceVolume, opaque: &[bool], axis: SliceAxis) -> f
         let diameter = next as f32 * pixel;
         let far = AtomicUsize::new(0);
         parallel::map(count, |slice| {
-            let (plane, depth) = &planes[slice];
+            let (plane, depth, contour) = &planes[slice];
             // Once there are too many it makes no difference how many more.
             if far.load(Ordering::Relaxed) <= most_far {
-                far.fetch_add(plane.far_from_deep(depth, diameter), Ordering::Relaxed);
+                far.fetch_add(
+                    plane.far_from_deep(depth, contour, diameter),
+                    Ordering::Relaxed,
+                );
             }
         });
         if far.into_inner() > most_far {

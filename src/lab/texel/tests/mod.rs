@@ -1,5 +1,7 @@
 //! The march against searches and against itself.
 
+mod criteria;
+
 use bevy::math::Vec3;
 use glam::{DVec2, DVec3, UVec3};
 use proptest::prelude::*;
