@@ -40,13 +40,13 @@ fn gaps(set: &SliceSet, thickness: f64, a: f64) -> Option<f64> {
 #[test]
 fn gaps_begin_where_the_criterion_says() {
     let mut counted = 0;
-    for e in [3, 5, 10] {
+    for e in [3, 5, 8, 12] {
         let volume = walls(e);
         let thickness = e as f32 / 32.0;
         // What is measured is no more, so that it does not promise too much.
         let measured = volume.thickness().along(SliceAxis::W);
         assert!(
-            measured <= thickness && measured > 0.7 * thickness,
+            measured <= thickness && measured >= 0.6 * thickness,
             "{measured}"
         );
         for count in [4, 8, 16, 32] {
