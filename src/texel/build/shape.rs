@@ -58,7 +58,8 @@ pub struct ShapeSettings {
     /// Lower and upper corner of the box that is sliced. `None` takes that of the shape, with a margin of a
     /// voxel along u and v if it is isolated.
     pub bounds: Option<[Vec3; 2]>,
-    /// How copies meet. What reaches over the sides of a tiling volume comes in on the other side.
+    /// How copies meet. What reaches over the sides of a tiling volume, by up to eight of its lengths, comes in on the
+    /// other side.
     pub topology: Topology,
     /// What is opaque.
     pub filling: Filling,
@@ -250,16 +251,21 @@ fn bounds(shape: &Shape, settings: &ShapeSettings) -> Result<[Vec3; 2], TexelErr
     }
 }
 
+/// How many boxes further a shape may reach over the sides of a tiling volume.
+const MOST_COPIES: f32 = 8.0;
+
 /// Nothing may be cut off by the box, but what goes on at the other side of a tiling volume.
 fn check_in_box(
     shape: &Shape,
     topology: Topology,
     [min, max]: [Vec3; 2],
 ) -> Result<(), TexelError> {
-    let outside = |corner: Vec3| {
-        let out = corner.cmplt(min) | corner.cmpgt(max);
-        out.z || (topology == Topology::Isolated && (out.x || out.y))
+    let copies = match topology {
+        Topology::Isolated => 0.0,
+        Topology::Tiling => MOST_COPIES,
     };
+    let reach = (max - min) * Vec3::new(copies, copies, 0.0);
+    let outside = |corner: Vec3| corner.cmplt(min - reach).any() || corner.cmpgt(max + reach).any();
     match shape.corners().find(|&(_, corner)| outside(corner)) {
         Some((triangle, position)) => Err(TexelError::OutsideBox {
             triangle,

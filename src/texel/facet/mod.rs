@@ -5,10 +5,12 @@
 //! Σ bᵢ·(Aᵢ + w·Hᵢ). Texture coordinates are Σ bᵢ·(uᵢ, vᵢ), and repeat with 1, so that a facet may carry a part of a
 //! texel or many.
 //!
-//! `frame` has the directions in which u, v and w grow there; `slicing` cuts the prism into slices.
+//! `frame` has the directions in which u, v and w grow there; `slicing` cuts the prism into slices; `surface` makes facets
+//! of a mesh.
 
 mod frame;
 mod slicing;
+mod surface;
 #[cfg(test)]
 mod tests;
 
@@ -17,6 +19,7 @@ use thiserror::Error;
 
 pub use frame::TexelFrame;
 pub use slicing::{slice_line, slice_position, slice_range};
+pub use surface::{Surface, SurfaceError, SurfaceFacets};
 
 /// A triangle with what its texels need, in any one space.
 #[derive(Clone, Copy, Debug, PartialEq)]

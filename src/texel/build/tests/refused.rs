@@ -1,6 +1,7 @@
 //! What cannot be built is refused with a reason and a fix.
 
 use bevy::math::{UVec2, UVec3, Vec2, Vec3};
+use proptest::prelude::*;
 
 use super::*;
 
@@ -106,6 +107,11 @@ fn boxes_that_cut_the_shape_or_have_no_volume_are_refused() {
     assert_says(&message, &["no finite volume"]);
     let message = refused(&shape, |s| s.bounds = Some([Vec3::ZERO, Vec3::splat(1.5)]));
     assert_says(&message, &["lie on the sides", "leave a margin"]);
+    let message = refused(&cuboid(Vec3::ZERO, Vec3::new(1e6, 1.0, 1.0)), |s| {
+        s.topology = Topology::Tiling;
+        s.bounds = Some([Vec3::ZERO, Vec3::ONE]);
+    });
+    assert_says(&message, &["outside the box"]);
     let message = refused(&shape, |s| s.size.y = 9);
     assert_says(&message, &["9 voxels along v", "take 8"]);
 }
@@ -165,4 +171,63 @@ fn height_fields_images_and_functions_are_checked() {
         .unwrap_err()
         .to_string();
     assert_says(&message, &["NaN at [0.625, 0.125, 0.75]"]);
+}
+
+/// Numbers of all kinds.
+fn number() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        8 => -2.0..2.0f32,
+        4 => prop::sample::select(vec![0.0, -0.0, 1.0, 0.5, -1.0]),
+        1 => prop::sample::select(vec![
+            f32::NAN, f32::INFINITY, f32::NEG_INFINITY, f32::MAX, f32::MIN_POSITIVE, 1e30, -1e30, 1e-30,
+        ]),
+    ]
+}
+
+fn vector() -> impl Strategy<Value = Vec3> {
+    [number(), number(), number()].prop_map(Vec3::from_array)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(600) })]
+
+    #[test]
+    fn any_shape_gives_a_volume_or_an_error(
+        positions in prop::collection::vec(vector(), 0..8),
+        triangles in prop::collection::vec(prop::array::uniform3(0..8u32), 0..6),
+        filling in prop::sample::select(vec![Filling::Flood, Filling::Parity, Filling::None]),
+        tiles in any::<bool>(),
+        bounds in prop::option::of([vector(), vector()]),
+        sides in prop::array::uniform3(0..6u32),
+    ) {
+        let shape = Shape { positions, triangles, ..Shape::default() };
+        let settings = ShapeSettings {
+            bounds,
+            topology: if tiles { Topology::Tiling } else { Topology::Isolated },
+            filling,
+            ..ShapeSettings::new(UVec3::from_array(sides.map(|side| 1 << side)))
+        };
+        if let Ok(built) = from_shape(&shape, &settings, &silent) {
+            prop_assert!(built.volume.opaque_voxels() > 0);
+            let thickness = built.volume.thickness().narrowest;
+            prop_assert!(thickness.min_element() > 0.0, "{}", thickness);
+        }
+    }
+
+    #[test]
+    fn any_heights_give_a_volume_or_an_error(
+        heights in prop::collection::vec(number(), 16),
+        lengths in vector(),
+        tiles in any::<bool>(),
+    ) {
+        let settings = VolumeSettings {
+            lengths,
+            topology: if tiles { Topology::Tiling } else { Topology::Isolated },
+            ..VolumeSettings::new(UVec3::new(4, 4, 8))
+        };
+        let field = HeightField::new(UVec2::splat(4), heights, [9; 3]);
+        if let Ok(built) = from_height_field(&field, &settings, &silent) {
+            prop_assert!(built.volume.opaque_voxels() > 0);
+        }
+    }
 }
