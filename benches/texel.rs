@@ -1,4 +1,4 @@
-//! What building reference volumes costs.
+//! What building reference volumes costs, and choosing slices for the facets of a view.
 //!
 //! ```text
 //! cargo bench --bench texel --profile dev
@@ -6,13 +6,16 @@
 
 use std::hint::black_box;
 
-use bevy::math::{UVec2, UVec3, Vec2, Vec3};
+use bevy::math::{UVec2, UVec3, Vec2, Vec3, Vec4};
 use bevy_verdure::texel::build::{
     Filling, HeightField, Shape, ShapeSettings, VolumeSettings, from_height_field, from_implicit,
     from_shape,
 };
-use bevy_verdure::texel::{SliceSets, silent};
-use criterion::{Criterion, criterion_group, criterion_main};
+use bevy_verdure::texel::facet::Facet;
+use bevy_verdure::texel::{
+    Choice, SliceSets, TexelQuality, TexelView, Thickness, VolumeMeasure, choose_all, silent,
+};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 /// A tiling field of hills of several sizes.
 fn hills(side: u32) -> HeightField {
@@ -91,5 +94,53 @@ fn build(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, build);
+/// Direction and count of every facet of a view.
+fn choice(c: &mut Criterion) {
+    let mut group = c.benchmark_group("texel_choose");
+    for side in [100u32, 300] {
+        let facets = ground(side);
+        let mut choices = vec![Choice::LeftOut; facets.len()];
+        let measure = VolumeMeasure {
+            most: UVec3::new(256, 256, 64),
+            lengths: Vec3::new(1.0, 1.0, 0.25),
+            thickness: Thickness {
+                narrowest: Vec3::splat(0.02),
+            },
+        };
+        let view = TexelView {
+            eye: Vec3::new(0.0, 0.0, 1.7),
+            direction: None,
+            pixels: 900.0,
+            half_spaces: [Vec4::ZERO; 6],
+        };
+        group.throughput(Throughput::Elements(facets.len() as u64));
+        group.bench_function(BenchmarkId::from_parameter(facets.len()), |b| {
+            b.iter(|| {
+                let quality = TexelQuality::default();
+                choose_all(black_box(&facets), &measure, &view, &quality, &mut choices);
+            });
+        });
+    }
+    group.finish();
+}
+
+/// A square of ground, a texel to each pair of facets.
+fn ground(side: u32) -> Vec<Facet> {
+    let corner = |x: u32, y: u32| Vec2::new(x as f32, y as f32) - side as f32 / 2.0;
+    let mut facets = Vec::new();
+    for (x, y) in (0..side * side).map(|i| (i % side, i / side)) {
+        let [a, b] = [corner(x, y), corner(x + 1, y)];
+        let [c, d] = [corner(x, y + 1), corner(x + 1, y + 1)];
+        for uvs in [[a, b, d], [a, d, c]] {
+            facets.push(Facet {
+                positions: uvs.map(|uv| uv.extend(0.0)),
+                heights: [Vec3::Z * 0.25; 3],
+                uvs,
+            });
+        }
+    }
+    facets
+}
+
+criterion_group!(benches, build, choice);
 criterion_main!(benches);

@@ -6,7 +6,9 @@ use bevy::asset::io::Reader;
 use bevy::asset::{Asset, AssetLoader, AsyncReadExt, LoadContext};
 use bevy::prelude::{App, AssetApp, Plugin, TypePath};
 
-use super::file::{EXTENSION, MAX_DOCUMENT_BYTES, TexelDocument, TexelFileError, TexelFileErrorKind};
+use super::file::{
+    EXTENSION, MAX_DOCUMENT_BYTES, TexelDocument, TexelFileError, TexelFileErrorKind,
+};
 use super::progress::silent;
 use super::volume::ReferenceVolume;
 

@@ -16,7 +16,9 @@ use super::build::{Paint, PaintTexture, Shape};
 #[non_exhaustive]
 pub enum ShapeMeshError {
     /// The mesh is only on the GPU, or has no positions.
-    #[error("{0}. Load the mesh with RenderAssetUsages::MAIN_WORLD among its asset usages, and give it positions")]
+    #[error(
+        "{0}. Load the mesh with RenderAssetUsages::MAIN_WORLD among its asset usages, and give it positions"
+    )]
     Access(#[from] MeshAccessError),
     /// The mesh has lines or points.
     #[error("the mesh is a {0:?}: only TriangleList and TriangleStrip have surfaces")]
@@ -28,7 +30,9 @@ pub enum ShapeMeshError {
     #[error("the base colour texture {0} is not loaded yet: wait for it")]
     NotLoaded(AssetId<Image>),
     /// A texture's pixels cannot be read.
-    #[error("the base colour texture cannot be read ({0}): use an uncompressed image that is kept in the main world")]
+    #[error(
+        "the base colour texture cannot be read ({0}): use an uncompressed image that is kept in the main world"
+    )]
     Texture(#[from] TextureAccessError),
 }
 
@@ -52,7 +56,8 @@ impl Shape {
         let paint = paint(material, images)?;
         let first = self.positions.len() as u32;
         self.complete();
-        self.paint_of.extend(vec![self.paints.len() as u16; added.triangles.len()]);
+        self.paint_of
+            .extend(vec![self.paints.len() as u16; added.triangles.len()]);
         self.paints.push(paint);
         self.positions.extend(added.positions);
         self.normals.extend(added.normals);
@@ -60,7 +65,8 @@ impl Shape {
         self.colors.extend(added.colors);
         // What is out of range stays so.
         let moved = added.triangles.into_iter();
-        self.triangles.extend(moved.map(|triangle| triangle.map(|i| i.saturating_add(first))));
+        self.triangles
+            .extend(moved.map(|triangle| triangle.map(|i| i.saturating_add(first))));
         Ok(())
     }
 
@@ -82,11 +88,15 @@ impl Shape {
 fn read(mesh: &Mesh, material: &StandardMaterial) -> Result<Shape, ShapeMeshError> {
     let vector = |[x, y, z]: [f32; 3]| Vec3::new(x, -z, y);
     let positions = mesh.try_attribute(Mesh::ATTRIBUTE_POSITION)?;
-    let positions = positions.as_float3().ok_or(ShapeMeshError::Format("positions"))?;
+    let positions = positions
+        .as_float3()
+        .ok_or(ShapeMeshError::Format("positions"))?;
     let count = positions.len();
     let normals = match mesh.try_attribute_option(Mesh::ATTRIBUTE_NORMAL)? {
         Some(normals) => {
-            let normals = normals.as_float3().ok_or(ShapeMeshError::Format("normals"))?;
+            let normals = normals
+                .as_float3()
+                .ok_or(ShapeMeshError::Format("normals"))?;
             normals.iter().copied().map(vector).collect()
         }
         None => vec![Vec3::ZERO; count],
@@ -94,7 +104,9 @@ fn read(mesh: &Mesh, material: &StandardMaterial) -> Result<Shape, ShapeMeshErro
     let uvs = match mesh.try_attribute_option(Mesh::ATTRIBUTE_UV_0)? {
         Some(VertexAttributeValues::Float32x2(uvs)) => {
             let transform = material.uv_transform;
-            uvs.iter().map(|&uv| transform.transform_point2(uv.into())).collect()
+            uvs.iter()
+                .map(|&uv| transform.transform_point2(uv.into()))
+                .collect()
         }
         Some(_) => return Err(ShapeMeshError::Format("texture coordinates")),
         None => Vec::new(),
@@ -128,7 +140,8 @@ fn triangles(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, ShapeMeshErr
         PrimitiveTopology::TriangleList => Ok(indices.as_chunks().0.to_vec()),
         PrimitiveTopology::TriangleStrip => {
             let windows = indices.array_windows().enumerate();
-            let wound = windows.map(|(i, &[a, b, c])| if i % 2 == 0 { [a, b, c] } else { [b, a, c] });
+            let wound =
+                windows.map(|(i, &[a, b, c])| if i % 2 == 0 { [a, b, c] } else { [b, a, c] });
             Ok(wound.collect())
         }
         other => Err(ShapeMeshError::Topology(other)),
@@ -138,7 +151,9 @@ fn triangles(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, ShapeMeshErr
 fn paint(material: &StandardMaterial, images: &Assets<Image>) -> Result<Paint, ShapeMeshError> {
     let texture = match &material.base_color_texture {
         Some(handle) => {
-            let image = images.get(handle).ok_or(ShapeMeshError::NotLoaded(handle.id()))?;
+            let image = images
+                .get(handle)
+                .ok_or(ShapeMeshError::NotLoaded(handle.id()))?;
             Some(texture(image)?)
         }
         None => None,

@@ -18,6 +18,7 @@
 //! | [`criteria`] | how many slices, and which? The formulas (§4.1 to §4.3) |
 //! | [`facet`] | one triangle of the surface, the prism on it, and where slices cut it (§2.1, §4.2) |
 //! | `choose` | direction and number for each facet of a view |
+//! | `bake` | light in the colours, as the paper has it, for comparison |
 //! | [`file`] | `*.texel.ron` and its images |
 //!
 //! All of it is plain mathematics, which runs and is tested without a GPU. What knows Bevy: `asset` (volumes as
@@ -31,7 +32,9 @@
 //! * e is measured, by what "narrowest" may mean for any contour; the paper leaves it to the user.
 //! * The two slice counts, by depth and by distance, bound each other: the smaller will do.
 
+mod asset;
 mod axis;
+mod bake;
 pub mod build;
 mod choose;
 pub mod color;
@@ -39,6 +42,7 @@ pub mod criteria;
 mod error;
 pub mod facet;
 pub mod file;
+mod from_mesh;
 mod parallel;
 mod progress;
 mod slice_sets;
@@ -46,11 +50,14 @@ mod thickness;
 mod topology;
 mod volume;
 
+pub use asset::{TexelVolume, TexelVolumeLoader, TexelVolumePlugin};
 pub use axis::SliceAxis;
+pub use bake::BakedLight;
 pub use choose::{
     Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose, choose_all,
 };
 pub use error::TexelError;
+pub use from_mesh::ShapeMeshError;
 pub use progress::{BuildStep, Progress, silent};
 pub use slice_sets::{SliceLevel, SliceSet, SliceSets};
 pub use thickness::{MOST_PIXELS, Thickness};

@@ -120,6 +120,14 @@ impl ReferenceVolume {
         Ok(volume)
     }
 
+    /// The same with other colours, which are opaque where they were.
+    pub(super) fn with_colors(&self, colors: Vec<[u8; 4]>) -> Self {
+        Self {
+            colors,
+            ..self.clone()
+        }
+    }
+
     /// Voxels along u, v and w.
     pub fn size(&self) -> UVec3 {
         self.size

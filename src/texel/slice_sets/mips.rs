@@ -12,7 +12,7 @@ use super::{PixelSum, SliceLevel};
 
 /// All levels of slices that have `size` pixels at level 0.
 pub(super) fn levels(
-    slices: &[Vec<PixelSum>],
+    slices: Vec<Vec<PixelSum>>,
     size: [u32; 2],
     table: &SrgbTable,
 ) -> Vec<SliceLevel> {
@@ -23,12 +23,17 @@ pub(super) fn levels(
     let mut levels = Vec::new();
     let mut size = size;
     let mut pixels_each = 1;
-    let mut current: Vec<Vec<PixelSum>> = slices.to_vec();
+    let mut current = slices;
     loop {
         let counts = rounded(&opaque, pixels_each);
         let encoded = parallel::map(current.len(), |slice| {
-            let chosen = choose(&current[slice], size, slice, counts[slice]);
-            encode(&current[slice], &chosen, size, table)
+            let pixels = &current[slice];
+            let chosen = if pixels_each == 1 {
+                pixels.iter().map(|pixel| pixel.opaque > 0).collect()
+            } else {
+                choose(pixels, size, slice, counts[slice])
+            };
+            encode(pixels, &chosen, size, table)
         });
         let (colors, normals) = encoded.into_iter().flatten().unzip();
         levels.push(SliceLevel {

@@ -54,21 +54,33 @@ struct PixelSum {
     opaque: u32,
 }
 
+/// The first and the last opaque voxel behind a pixel, by their indices; both [`NO_VOXEL`] if there is none.
+type Ends = [u32; 2];
+
+const NO_VOXEL: u32 = u32::MAX;
+
 impl SliceSet {
-    /// Cuts a volume into `count` slices. Counts are rounded up to a power of two, and are at most as many as there
-    /// are voxels.
+    /// Cuts a volume into `count` slices. Counts are rounded up to a power of two, and are at most as many as there are
+    /// voxels.
     pub fn new(volume: &ReferenceVolume, axis: SliceAxis, count: u32) -> Self {
         let most = volume.size()[axis.index()];
         let count = count.clamp(1, most).next_power_of_two();
+        Self::of_layers(volume, axis, &layers(volume, axis, count))
+    }
+
+    fn of_layers(volume: &ReferenceVolume, axis: SliceAxis, layers: &[Vec<Ends>]) -> Self {
         let table = SrgbTable::new();
-        let slices = parallel::map(count as usize, |slice| {
-            layer(volume, axis, slice as u32, most / count, &table)
+        let slices = parallel::map(layers.len(), |slice| {
+            let pixels = layers[slice].iter();
+            pixels
+                .map(|&ends| pixel(volume, axis, ends, &table))
+                .collect()
         });
         let size = axis.in_plane().map(|axis| volume.size()[axis.index()]);
         Self {
             axis,
-            count,
-            levels: mips::levels(&slices, size, &table),
+            count: layers.len() as u32,
+            levels: mips::levels(slices, size, &table),
         }
     }
 
@@ -78,47 +90,71 @@ impl SliceSet {
     }
 }
 
-/// The pixels of one layer.
-fn layer(
-    volume: &ReferenceVolume,
-    axis: SliceAxis,
-    slice: u32,
-    depth: u32,
-    table: &SrgbTable,
-) -> Vec<PixelSum> {
+/// What is behind each pixel of `count` layers.
+fn layers(volume: &ReferenceVolume, axis: SliceAxis, count: u32) -> Vec<Vec<Ends>> {
+    let depth = volume.size()[axis.index()] / count;
     let [across, up] = axis.in_plane();
     let [width, height] = [across, up].map(|axis| volume.size()[axis.index()]);
-    let mut pixels = Vec::with_capacity((width * height) as usize);
-    let mut voxel = [0; 3];
-    for row in 0..height {
-        for column in 0..width {
-            voxel[across.index()] = column;
-            voxel[up.index()] = row;
-            let mut opaque = (slice * depth..(slice + 1) * depth).filter_map(|at| {
-                voxel[axis.index()] = at;
-                let index = volume.index(voxel[0], voxel[1], voxel[2]);
-                (volume.colors()[index][3] != 0).then_some(index)
-            });
-            let mut pixel = PixelSum::default();
-            if let Some(first) = opaque.next() {
-                let last = opaque.next_back().unwrap_or(first);
-                pixel.opaque = 1;
-                let ends = if axis == SliceAxis::W {
-                    [last, last]
-                } else {
-                    [first, last]
-                };
-                for index in ends {
-                    let [r, g, b, _] = volume.colors()[index];
-                    let [x, y, z, _] = volume.normals()[index];
-                    pixel.color += 0.5 * table.decode([r, g, b]);
-                    pixel.normal += 0.5 * decode_normal([x, y, z]);
-                }
+    parallel::map(count as usize, |slice| {
+        let mut pixels = Vec::with_capacity((width * height) as usize);
+        let mut voxel = [0; 3];
+        for row in 0..height {
+            for column in 0..width {
+                voxel[across.index()] = column;
+                voxel[up.index()] = row;
+                let first = slice as u32 * depth;
+                let mut opaque = (first..first + depth).filter_map(|at| {
+                    voxel[axis.index()] = at;
+                    let index = volume.index(voxel[0], voxel[1], voxel[2]);
+                    (volume.colors()[index][3] != 0).then_some(index as u32)
+                });
+                let first = opaque.next().unwrap_or(NO_VOXEL);
+                pixels.push([first, opaque.next_back().unwrap_or(first)]);
             }
-            pixels.push(pixel);
         }
+        pixels
+    })
+}
+
+/// Half as many layers, each of two.
+fn merged(layers: &[Vec<Ends>]) -> Vec<Vec<Ends>> {
+    parallel::map(layers.len() / 2, |slice| {
+        let both = layers[2 * slice].iter().zip(&layers[2 * slice + 1]);
+        both.map(
+            |(&[first, last], &[next_first, next_last])| match (first, next_first) {
+                (NO_VOXEL, _) => [next_first, next_last],
+                (_, NO_VOXEL) => [first, last],
+                _ => [first, next_last],
+            },
+        )
+        .collect()
+    })
+}
+
+/// What a pixel shows of the voxels behind it.
+fn pixel(
+    volume: &ReferenceVolume,
+    axis: SliceAxis,
+    [first, last]: Ends,
+    table: &SrgbTable,
+) -> PixelSum {
+    let mut pixel = PixelSum::default();
+    if first == NO_VOXEL {
+        return pixel;
     }
-    pixels
+    pixel.opaque = 1;
+    let shown = if axis == SliceAxis::W {
+        [last, last]
+    } else {
+        [first, last]
+    };
+    for index in shown {
+        let [r, g, b, _] = volume.colors()[index as usize];
+        let [x, y, z, _] = volume.normals()[index as usize];
+        pixel.color += 0.5 * table.decode([r, g, b]);
+        pixel.normal += 0.5 * decode_normal([x, y, z]);
+    }
+    pixel
 }
 
 impl PixelSum {
@@ -141,10 +177,14 @@ impl SliceSets {
     pub fn new(volume: &ReferenceVolume, most: u32) -> Self {
         let sets = SliceAxis::ALL.map(|axis| {
             let most = volume.size()[axis.index()].min(most.max(1));
-            let counts = (0..=most.ilog2()).map(|exponent| 1 << exponent);
-            counts
-                .map(|count| SliceSet::new(volume, axis, count))
-                .collect()
+            let mut layers = layers(volume, axis, 1 << most.ilog2());
+            let mut sets = vec![SliceSet::of_layers(volume, axis, &layers)];
+            while layers.len() > 1 {
+                layers = merged(&layers);
+                sets.push(SliceSet::of_layers(volume, axis, &layers));
+            }
+            sets.reverse();
+            sets
         });
         Self { sets }
     }

@@ -74,6 +74,10 @@ fn every_count_covers_the_same_pixels_seen_along_its_axis() {
             let set = sets.get(axis, count);
             assert_eq!(set.count, count.min(size[axis.index()]));
             assert_eq!(shadow(set, 0), expected, "{axis:?} {count}");
+            assert_eq!(
+                set,
+                &SliceSet::new(&volume, axis, count.min(size[axis.index()]))
+            );
         }
         assert_eq!(sets.get(axis, 1000).count, size[axis.index()].min(16));
     }

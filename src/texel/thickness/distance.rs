@@ -57,11 +57,10 @@ impl Plane {
         let half = self.spacing[0].max(self.spacing[1]) * 0.5;
         let mut contour = Vec::new();
         for row in rows.clone() {
-            for index in row * self.size[0] + columns.start..row * self.size[0] + columns.end {
-                if self.solid[index] && depth_squared[index] <= half * half {
-                    contour.push(index as u32);
-                }
-            }
+            let start = row * self.size[0];
+            let pixels = (start + columns.start..start + columns.end)
+                .filter(|&index| self.solid[index] && depth_squared[index] <= half * half);
+            contour.extend(pixels.map(|index| index as u32));
         }
         contour
     }
