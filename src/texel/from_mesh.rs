@@ -179,3 +179,85 @@ fn texture(image: &Image) -> Result<PaintTexture, ShapeMeshError> {
     }
     Ok(PaintTexture::new(size, &pixels))
 }
+
+#[cfg(test)]
+mod tests {
+    use bevy::asset::RenderAssetUsages;
+    use bevy::color::Color;
+    use bevy::math::UVec3;
+    use bevy::math::primitives::Cuboid;
+
+    use super::super::build::{ShapeSettings, from_shape};
+    use super::super::progress::silent;
+    use super::*;
+
+    fn red() -> StandardMaterial {
+        StandardMaterial::from_color(Color::srgb_u8(200, 10, 20))
+    }
+
+    #[test]
+    fn a_mesh_stands_upright_in_its_volume_with_the_colour_of_its_material() {
+        let mut shape = Shape::default();
+        let mesh = Mesh::from(Cuboid::new(1.0, 2.0, 4.0));
+        shape.add_mesh(&mesh, &red(), &Assets::default()).unwrap();
+        let built = from_shape(&shape, &ShapeSettings::new(UVec3::splat(32)), &silent);
+        let volume = built.unwrap().volume;
+        // Height is Bevy's y, and v its −z; along u and v there is a margin of a voxel of 1/30 and 4/30.
+        assert_eq!(volume.lengths().z, 2.0);
+        let margin = volume.lengths() - Vec3::new(1.0, 4.0, 2.0);
+        assert!(
+            margin.distance(Vec3::new(2.0, 8.0, 0.0) / 30.0) < 1e-3,
+            "{margin}"
+        );
+        assert_eq!(volume.color(16, 16, 31), [200, 10, 20, 255]);
+        assert_eq!(volume.normal(16, 16, 31).round(), Vec3::Z);
+        assert_eq!(volume.normal(16, 30, 16).round(), Vec3::Y);
+        assert_eq!(volume.normal(30, 16, 16).round(), Vec3::X);
+        assert!(volume.is_opaque(16, 16, 16), "filled");
+    }
+
+    #[test]
+    fn meshes_are_added_one_to_the_other_each_with_its_paint() {
+        let mut shape = Shape::default();
+        let plain = Mesh::from(Cuboid::default()).with_removed_attribute(Mesh::ATTRIBUTE_NORMAL);
+        shape.add_mesh(&plain, &red(), &Assets::default()).unwrap();
+        let glass = StandardMaterial {
+            alpha_mode: AlphaMode::Mask(0.3),
+            ..red()
+        };
+        shape
+            .add_mesh(&Mesh::from(Cuboid::default()), &glass, &Assets::default())
+            .unwrap();
+        assert_eq!(shape.triangles.len(), 24);
+        assert_eq!((shape.paint_of[11], shape.paint_of[12]), (0, 1));
+        let cutoffs = [shape.paints[0].alpha_cutoff, shape.paints[1].alpha_cutoff];
+        assert_eq!(cutoffs, [0.0, 0.3]);
+        let vertices = shape.positions.len();
+        for list in [shape.normals.len(), shape.uvs.len(), shape.colors.len()] {
+            assert_eq!(list, vertices);
+        }
+        assert!(
+            shape.triangles[12..]
+                .as_flattened()
+                .iter()
+                .all(|&i| i >= 24)
+        );
+    }
+
+    #[test]
+    fn what_is_no_surface_or_not_there_is_refused() {
+        let add = |mesh: &Mesh, material: &StandardMaterial| {
+            let added = Shape::default().add_mesh(mesh, material, &Assets::default());
+            added.unwrap_err().to_string()
+        };
+        let lines = Mesh::new(PrimitiveTopology::LineList, RenderAssetUsages::default());
+        assert!(add(&lines, &red()).contains("give it positions"));
+        let lines = lines.with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, vec![[0.0; 3]; 4]);
+        assert!(add(&lines, &red()).contains("LineList"));
+        let textured = StandardMaterial {
+            base_color_texture: Some(Default::default()),
+            ..red()
+        };
+        assert!(add(&Mesh::from(Cuboid::default()), &textured).contains("not loaded yet"));
+    }
+}
