@@ -1,7 +1,7 @@
 //! Baked light, as the paper has it (§3.1, §3.3): colours are shaded once, by light that turns with the surface.
 //!
-//! The crate lights volumes by the scene instead, with their normals. Baking is for comparison, and for materials without
-//! lighting.
+//! The crate lights volumes by the scene instead, with their normals. Baking is for comparison, and for materials
+//! without lighting.
 
 use bevy::math::Vec3;
 

@@ -148,8 +148,8 @@ pub enum TexelError {
     },
     /// A vertex lies outside the box.
     #[error(
-        "triangle {triangle} reaches {position}, outside the box that is sliced (from {min} to {max}): enlarge the box, \
-         or leave it out to take the shape's own"
+        "triangle {triangle} reaches {position}, outside the box that is sliced (from {min} to {max}): enlarge \
+         the box, or leave it out to take the shape's own"
     )]
     OutsideBox {
         /// Which triangle.

@@ -40,12 +40,12 @@ impl Shape {
     /// Adds a mesh with the base colour of its material. Bevy's axes become those of volumes: x stays, y is up, w; and
     /// what Bevy's −z points to is v.
     ///
-    /// Alpha cuts holes with [`AlphaMode::Mask`] at its cutoff, with blending modes at one half, else not at all. Vertex
-    /// colours, if the mesh has them, multiply the material's.
+    /// Alpha cuts holes with [`AlphaMode::Mask`] at its cutoff, with blending modes at one half, else not at all.
+    /// Vertex colours, if the mesh has them, multiply the material's.
     ///
     /// # Errors
-    /// When the mesh is no surface or not readable, or the texture is not. Indices out of range are found when the shape is
-    /// built.
+    /// When the mesh is no surface or not readable, or the texture is not. Indices out of range are found when the
+    /// shape is built.
     pub fn add_mesh(
         &mut self,
         mesh: &Mesh,

@@ -19,7 +19,7 @@
 //! | [`facet`] | one triangle of the surface, the prism on it, and where slices cut it (§2.1, §4.2) |
 //! | `choose` | direction and number for each facet of a view |
 //! | `bake` | light in the colours, as the paper has it, for comparison |
-//! | [`file`] | `*.texel.ron` and its images |
+//! | [`mod@file`] | `*.texel.ron` and its images |
 //!
 //! All of it is plain mathematics, which runs and is tested without a GPU. What knows Bevy: `asset` (volumes as
 //! assets), and `from_mesh` (Bevy's meshes as shapes).

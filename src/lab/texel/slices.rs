@@ -1,7 +1,8 @@
 //! The slices that are drawn instead of the volume, met by a ray: what a perfect rasteriser would show of them.
 //!
-//! Slice k of N stands at (k + ½)/N of its axis and is as thin as paper; a ray sees the first whose pixel is opaque where it
-//! passes through. Held against [`march_voxels`](super::march_voxels), it tells the method's own error from that of drawing.
+//! Slice k of N stands at (k + ½)/N of its axis and is as thin as paper; a ray sees the first whose pixel is opaque
+//! where it passes through. Held against [`march_voxels`](super::march_voxels), it tells the method's own error from
+//! that of drawing.
 
 use glam::DVec3;
 
@@ -21,8 +22,8 @@ pub struct SliceHit {
     pub normal: DVec3,
 }
 
-/// The first opaque pixel of the slices of a set on the line `origin` + t·`dir` in texture space, for t from `range[0]` to
-/// `range[1]`, both finite.
+/// The first opaque pixel of the slices of a set on the line `origin` + t·`dir` in texture space, for t from
+/// `range[0]` to `range[1]`, both finite.
 ///
 /// Slices repeat with the texture along u and v, and extend from 0 to 1 along w. Pixels are those of level 0, nearest.
 pub fn march_slices(

@@ -15,7 +15,7 @@
 //! 2. Contours are closed where the surface jumps over slices (`close`, appendix).
 //! 3. Colours and normals spread inward by averages of what is already coloured, in a separate buffer (`spread`, §3.2).
 //!
-//! All of it is done in [`Draft`](draft::Draft), a volume whose voxels are still linear colours and marks. The result
+//! All of it is done in `draft`, a volume whose voxels are still linear colours and marks. The result
 //! does not depend on the number of cores, to the last byte.
 
 mod close;

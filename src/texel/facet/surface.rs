@@ -66,8 +66,8 @@ pub enum SurfaceError {
 }
 
 impl Surface {
-    /// The facets, with height vectors of a length along the normals where the surface has none of its own. Triangles that can
-    /// carry no texels are left out.
+    /// The facets, with height vectors of a length along the normals where the surface has none of its own. Triangles
+    /// that can carry no texels are left out.
     ///
     /// Edges may have any number of triangles, and the surface may be open.
     ///

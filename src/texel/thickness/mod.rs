@@ -53,8 +53,8 @@ impl Thickness {
     }
 }
 
-/// The widest feature that is measured, in pixels of the smaller side. Colours from half as deep inside, which an e larger
-/// than this would allow by §4.1, have no more to do with the surface, however thick the contour.
+/// The widest feature that is measured, in pixels of the smaller side. Colours from half as deep inside, which an e
+/// larger than this would allow by §4.1, have no more to do with the surface, however thick the contour.
 pub const MOST_PIXELS: u32 = 8;
 
 /// The widths that are tried, in pixels. The first always passes.
