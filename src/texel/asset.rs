@@ -96,3 +96,94 @@ async fn read_beside(context: &mut LoadContext<'_>, name: &str) -> Result<Vec<u8
     let bytes = context.read_asset_bytes(path).await;
     bytes.map_err(|error| unreadable(&named, error.to_string()))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::{Path, PathBuf};
+    use std::time::Duration;
+
+    use bevy::MinimalPlugins;
+    use bevy::asset::{AssetPlugin, AssetServer, Assets, Handle, LoadState};
+    use bevy::math::UVec3;
+
+    use super::super::build::{VolumeSettings, from_implicit};
+    use super::super::file::save;
+    use super::*;
+
+    /// A folder that is removed at the end.
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str) -> Self {
+            let path = std::env::temp_dir().join(format!("texel-{name}-{}", std::process::id()));
+            std::fs::create_dir_all(&path).unwrap();
+            Self(path)
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            // What stays behind is in the system's folder for that.
+            let _ = std::fs::remove_dir_all(&self.0);
+        }
+    }
+
+    /// An app that has loaded `a.texel.ron`, or has failed to.
+    fn loaded(folder: &Path) -> (App, Handle<TexelVolume>) {
+        let mut app = App::new();
+        app.add_plugins((
+            MinimalPlugins,
+            AssetPlugin {
+                file_path: folder.display().to_string(),
+                ..Default::default()
+            },
+            TexelVolumePlugin,
+        ));
+        let handle = app.world().resource::<AssetServer>().load("a.texel.ron");
+        // A minute at most, of which loading takes milliseconds.
+        for _ in 0..6000 {
+            app.update();
+            let state = app.world().resource::<AssetServer>().load_state(&handle);
+            if matches!(state, LoadState::Loaded | LoadState::Failed(_)) {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        (app, handle)
+    }
+
+    fn ball() -> ReferenceVolume {
+        let settings = VolumeSettings::new(UVec3::splat(16));
+        let function = |at: bevy::math::Vec3| 0.4 / at.distance(bevy::math::Vec3::splat(0.5));
+        from_implicit(function, |at| at, &settings, &silent)
+            .unwrap()
+            .volume
+    }
+
+    #[test]
+    fn a_volume_is_loaded_with_its_images() {
+        let folder = Folder::new("loaded");
+        save(&ball(), &folder.0.join("a.texel.ron")).unwrap();
+        let (app, handle) = loaded(&folder.0);
+        let volumes = app.world().resource::<Assets<TexelVolume>>();
+        assert_eq!(volumes.get(&handle), Some(&ball().into()));
+    }
+
+    #[test]
+    fn a_missing_image_is_named() {
+        let folder = Folder::new("missing");
+        save(&ball(), &folder.0.join("a.texel.ron")).unwrap();
+        std::fs::remove_file(folder.0.join("a.normal.png")).unwrap();
+        let (app, handle) = loaded(&folder.0);
+        match app.world().resource::<AssetServer>().load_state(&handle) {
+            LoadState::Failed(error) => {
+                let message = error.to_string();
+                assert!(
+                    message.contains("a.normal.png: cannot be read"),
+                    "{message}"
+                );
+            }
+            state => panic!("{state:?}"),
+        }
+    }
+}
