@@ -7,6 +7,7 @@
 //! | [`skeleton`] | joints, segments, poses; files; what a plant is before it has a surface | |
 //! | [`frusta`] | solid parts: a cone round each segment, ray cast per pixel | `skeleton` |
 //! | [`slicing`] | sparse parts: crowns of twigs and leaves, baked into blended slices | `wind` |
+//! | [`texel`] | repeated cover: a volume in slices, mapped on a surface (no drawing yet) | |
 //! | [`wind`] | one wind for all plants of a scene | |
 //! | [`plants`] | skeletons grown from a seed: palms, pines, cacti, and scenes of them | `skeleton` |
 //! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
@@ -23,6 +24,7 @@ pub mod lab;
 pub mod plants;
 pub mod skeleton;
 pub mod slicing;
+pub mod texel;
 pub mod wind;
 
 use bevy::app::PluginGroupBuilder;

@@ -17,6 +17,7 @@ pub mod rivals;
 mod slicing_file;
 mod studio;
 mod supersample;
+pub mod texel;
 mod texture;
 mod timing;
 

@@ -1,0 +1,190 @@
+//! The direction and the number of slices of every facet, for one view (§4.2, §4.3).
+
+use bevy::math::{UVec3, Vec3, Vec4};
+
+use super::axis::SliceAxis;
+use super::criteria::{
+    choose_direction, count_exponent, depth_limit, sin_view_angle, slices_for_depth,
+    slices_for_pixels, tan_view_angle,
+};
+use super::facet::{Facet, TexelFrame};
+use super::thickness::Thickness;
+use super::volume::ReferenceVolume;
+
+/// What of a volume the choice depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VolumeMeasure {
+    /// The largest number of slices that there is along u, v and w: powers of two.
+    pub most: UVec3,
+    /// Lengths of the box, in metres.
+    pub lengths: Vec3,
+    /// e, in metres of the box.
+    pub thickness: Thickness,
+}
+
+impl VolumeMeasure {
+    /// Of a volume of which there are sets of at most `most` slices.
+    pub fn of(volume: &ReferenceVolume, most: u32) -> Self {
+        Self {
+            most: volume.size().min(UVec3::splat(most.max(1))),
+            lengths: volume.lengths(),
+            thickness: volume.thickness(),
+        }
+    }
+}
+
+/// Where the scene is seen from, in the space of the facets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TexelView {
+    /// The eye of a perspective view; not used if `direction` is given.
+    pub eye: Vec3,
+    /// The direction in which all rays of an orthographic view go, of any length.
+    pub direction: Option<Vec3>,
+    /// f: pixels of the screen that one unit of length covers at a distance of one, or of an orthographic view
+    /// anywhere.
+    pub pixels: f32,
+    /// Half-spaces that are seen, as (normal, offset): a point P is in one where normal·P + offset ≥ 0. Normals are
+    /// unit. A zero one holds everything.
+    pub half_spaces: [Vec4; 6],
+}
+
+/// By what the direction of slices is chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DirectionRule {
+    /// By h·tan(a), how far aside a slice stands from the next: the paper's, for one e of all directions.
+    #[default]
+    StepAside,
+    /// By h·tan(a)/e, the quality criterion with the e of each direction: the one that needs the fewest slices of all
+    /// there are.
+    Quality,
+}
+
+/// What may be seen of slices.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TexelQuality {
+    /// By what the direction is chosen.
+    pub direction: DirectionRule,
+    /// d, as a share of the narrowest thickness e; one half is the most that §4.1 allows, one the limit beyond which
+    /// gaps show.
+    pub depth: f32,
+    /// p: the distance between slices on screen, in pixels, that is close enough for any depth.
+    pub pixels: f32,
+}
+
+impl Default for TexelQuality {
+    fn default() -> Self {
+        Self {
+            direction: DirectionRule::default(),
+            depth: depth_limit(1.0),
+            pixels: 1.0,
+        }
+    }
+}
+
+/// What of a facet is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Choice {
+    /// Nothing: it is out of view, or carries no texels.
+    #[default]
+    LeftOut,
+    /// Slices across one axis.
+    Slices {
+        /// The direction.
+        axis: SliceAxis,
+        /// The number of slices a texel is two to the power of this.
+        exponent: u8,
+        /// Whether the view goes to where the axis' coordinate grows, so that the first slices are the nearest.
+        along: bool,
+    },
+}
+
+/// Chooses for one facet, at its centre: deformations are taken to be small.
+///
+/// Facets that fail their [`check`](Facet::check) are left out.
+pub fn choose(
+    facet: &Facet,
+    measure: &VolumeMeasure,
+    view: &TexelView,
+    quality: &TexelQuality,
+) -> Choice {
+    if facet.check().is_err() {
+        return Choice::LeftOut;
+    }
+    let (centre, radius) = facet.bounds();
+    let inside = |plane: &Vec4| plane.truncate().dot(centre) + plane.w >= -radius;
+    if !view
+        .half_spaces
+        .iter()
+        .all(|plane| *plane == Vec4::ZERO || inside(plane))
+    {
+        return Choice::LeftOut;
+    }
+    let middle = Vec3::splat(1.0 / 3.0);
+    let place = facet.point(middle, 0.5);
+    // From a point inside the prism every direction may be seen: up the height vectors as much as along the surface.
+    let to_place = view.direction.unwrap_or(place - view.eye);
+    let Some(direction) = to_place.try_normalize() else {
+        return Choice::Slices {
+            axis: SliceAxis::W,
+            exponent: measure.most.z.ilog2() as u8,
+            along: false,
+        };
+    };
+    let frame = TexelFrame::new(facet, middle, 0.5);
+    let mut c = [0.0; 3];
+    let mut l = [0.0; 3];
+    let mut h = [0.0; 3];
+    let mut e = [0.0; 3];
+    let mut step = [0.0; 3];
+    for axis in SliceAxis::ALL {
+        let i = axis.index();
+        let (normal, length) = frame.normal_and_length(axis);
+        c[i] = normal.dot(direction);
+        l[i] = length;
+        h[i] = length / measure.most[i] as f32;
+        e[i] = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
+        step[i] = match quality.direction {
+            DirectionRule::StepAside => h[i],
+            DirectionRule::Quality => h[i] / e[i],
+        };
+    }
+    let i = choose_direction(c, step);
+    let axis = SliceAxis::ALL[i];
+    let for_depth = slices_for_depth(l[i], tan_view_angle(c[i]), quality.depth * e[i]);
+    // The nearest that the facet can be, so that no part of it is drawn too coarsely. All of an orthographic view is
+    // at one.
+    let z = match view.direction {
+        Some(_) => 1.0,
+        None => view.eye.distance(centre) - radius,
+    };
+    let for_pixels = if z > 0.0 {
+        slices_for_pixels(l[i], sin_view_angle(c[i]), z, view.pixels, quality.pixels)
+    } else {
+        f32::INFINITY
+    };
+    Choice::Slices {
+        axis,
+        exponent: count_exponent(for_depth.min(for_pixels), measure.most[i]) as u8,
+        along: c[i] > 0.0,
+    }
+}
+
+/// Chooses for many facets, without allocating.
+///
+/// # Panics
+/// If there are not as many choices as facets.
+pub fn choose_all(
+    facets: &[Facet],
+    measure: &VolumeMeasure,
+    view: &TexelView,
+    quality: &TexelQuality,
+    choices: &mut [Choice],
+) {
+    assert_eq!(facets.len(), choices.len());
+    for (facet, slot) in facets.iter().zip(choices) {
+        *slot = choose(facet, measure, view, quality);
+    }
+}
+
+#[cfg(test)]
+mod tests;

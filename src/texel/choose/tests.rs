@@ -1,0 +1,193 @@
+//! Directions and counts for views of one facet.
+
+use bevy::math::Vec2;
+
+use super::super::criteria::gap_ratio;
+use super::*;
+
+/// A metre of surface with one texel of 64³, a quarter high.
+fn facet() -> Facet {
+    Facet {
+        positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
+        heights: [Vec3::Z * 0.25; 3],
+        uvs: [Vec2::ZERO, Vec2::X, Vec2::Y],
+    }
+}
+
+fn measure() -> VolumeMeasure {
+    VolumeMeasure {
+        most: UVec3::splat(64),
+        lengths: Vec3::new(1.0, 1.0, 0.25),
+        thickness: Thickness {
+            narrowest: Vec3::new(0.02, 0.02, 0.05),
+        },
+    }
+}
+
+fn looking(direction: Vec3, distance: f32) -> TexelView {
+    let place = Vec3::new(1.0 / 3.0, 1.0 / 3.0, 0.125);
+    TexelView {
+        eye: place - direction.normalize() * distance,
+        direction: None,
+        pixels: 900.0,
+        half_spaces: [Vec4::ZERO; 6],
+    }
+}
+
+fn chosen(direction: Vec3, distance: f32) -> (SliceAxis, u32) {
+    let view = looking(direction, distance);
+    match choose(&facet(), &measure(), &view, &TexelQuality::default()) {
+        Choice::Slices { axis, exponent, .. } => (axis, 1 << exponent),
+        Choice::LeftOut => panic!("it is in view"),
+    }
+}
+
+#[test]
+fn from_above_one_slice_will_do_and_aslant_there_are_more() {
+    assert_eq!(chosen(Vec3::NEG_Z, 3.0), (SliceAxis::W, 1));
+    let mut last = 0;
+    for degrees in [10.0, 30.0, 50.0, 63.0f32] {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let (axis, count) = chosen(Vec3::new(sin, 0.0, -cos), 3.0);
+        assert_eq!(axis, SliceAxis::W);
+        assert!(count >= last, "{degrees}");
+        last = count;
+    }
+    assert!(last > 8);
+}
+
+#[test]
+fn grazing_views_take_upright_slices_across_the_view() {
+    // Upright slices are four times further apart, so that they win where tan > 4/tan, from tan = 2 on.
+    assert_eq!(chosen(Vec3::new(1.0, 0.05, -0.1), 3.0).0, SliceAxis::U);
+    assert_eq!(chosen(Vec3::new(0.05, -1.0, -0.1), 3.0).0, SliceAxis::V);
+    assert_eq!(chosen(Vec3::new(1.0, 0.0, -0.49), 3.0).0, SliceAxis::U);
+    assert_eq!(chosen(Vec3::new(1.0, 0.0, -0.51), 3.0).0, SliceAxis::W);
+}
+
+#[test]
+fn by_quality_a_thick_direction_wins_over_a_fine_one() {
+    // Upright slices are four times further apart, but contours are ten times as thick there.
+    let mut measure = measure();
+    measure.thickness.narrowest = Vec3::new(0.2, 0.2, 0.02);
+    let view = looking(Vec3::new(1.0, 0.0, -1.0), 1.5);
+    let chosen = |direction| {
+        let quality = TexelQuality {
+            direction,
+            ..TexelQuality::default()
+        };
+        choose(&facet(), &measure, &view, &quality)
+    };
+    let axis_and_exponent = |choice| match choice {
+        Choice::Slices { axis, exponent, .. } => (axis, exponent),
+        Choice::LeftOut => panic!("it is in view"),
+    };
+    // N ≥ L·tan(45°)/(e/2): 0.25/0.01 and 1/0.1.
+    assert_eq!(
+        axis_and_exponent(chosen(DirectionRule::StepAside)),
+        (SliceAxis::W, 5)
+    );
+    assert_eq!(
+        axis_and_exponent(chosen(DirectionRule::Quality)),
+        (SliceAxis::U, 4)
+    );
+}
+
+#[test]
+fn counts_fall_with_distance_to_one() {
+    let direction = Vec3::new(1.0, 0.2, -1.0);
+    let counts: Vec<_> = (0..14).map(|i| chosen(direction, 2f32.powi(i)).1).collect();
+    assert!(counts.is_sorted_by(|near, far| near >= far), "{counts:?}");
+    assert!(counts[0] > 8 && counts[13] == 1, "{counts:?}");
+}
+
+#[test]
+fn near_counts_are_dense_enough_that_no_gap_can_show() {
+    for i in 0..500 {
+        let turn = i as f32 * 2.4;
+        let z = -(i as f32 + 0.5) / 500.0;
+        let r = (1.0 - z * z).sqrt();
+        let direction = Vec3::new(r * turn.cos(), r * turn.sin(), z);
+        let (axis, count) = chosen(direction, 1.5);
+        let (c, l) = (
+            [direction.x, direction.y, direction.z][axis.index()],
+            [1.0, 1.0, 0.25][axis.index()],
+        );
+        let ratio = gap_ratio(
+            l / count as f32,
+            tan_view_angle(c),
+            measure().thickness.along(axis),
+        );
+        // Or all slices are drawn that there are, or they are closer than a pixel.
+        let pixels = l / count as f32 * sin_view_angle(c) * 900.0 / (1.5 - 1.0);
+        assert!(
+            ratio <= 0.5001 || count == 64 || pixels <= 1.0,
+            "{direction}: {ratio}"
+        );
+    }
+}
+
+#[test]
+fn what_is_out_of_view_or_broken_is_left_out() {
+    let mut view = looking(Vec3::NEG_Z, 3.0);
+    let choice =
+        |facet: &Facet, view: &TexelView| choose(facet, &measure(), view, &TexelQuality::default());
+    view.half_spaces[2] = Vec4::new(1.0, 0.0, 0.0, -0.9);
+    assert_ne!(
+        choice(&facet(), &view),
+        Choice::LeftOut,
+        "its corner reaches in"
+    );
+    view.half_spaces[2].w = -3.0;
+    assert_eq!(choice(&facet(), &view), Choice::LeftOut);
+    let broken = Facet {
+        uvs: [Vec2::ONE; 3],
+        ..facet()
+    };
+    assert_eq!(choice(&broken, &looking(Vec3::NEG_Z, 3.0)), Choice::LeftOut);
+}
+
+#[test]
+fn an_eye_within_the_texel_gets_what_the_depth_asks_for() {
+    // tan(a) = 1.044/0.5, so that L·tan(a)/d = 0.25 · 2.088/0.025 = 20.9.
+    assert_eq!(chosen(Vec3::new(1.0, 0.3, -0.5), 1e-3), (SliceAxis::W, 32));
+    let view = TexelView {
+        eye: facet().point(Vec3::splat(1.0 / 3.0), 0.5),
+        ..looking(Vec3::X, 1.0)
+    };
+    let choice = choose(&facet(), &measure(), &view, &TexelQuality::default());
+    assert!(
+        matches!(choice, Choice::Slices { exponent: 6, .. }),
+        "{choice:?}"
+    );
+}
+
+#[test]
+fn an_orthographic_view_is_alike_at_any_distance() {
+    let along = |eye: Vec3| TexelView {
+        eye,
+        direction: Some(Vec3::new(1.0, 0.0, -1.0)),
+        pixels: 40.0,
+        half_spaces: [Vec4::ZERO; 6],
+    };
+    let mut choices = [Choice::LeftOut; 2];
+    for (eye, slot) in [Vec3::ZERO, Vec3::splat(1e4)].into_iter().zip(&mut choices) {
+        choose_all(
+            &[facet()],
+            &measure(),
+            &along(eye),
+            &TexelQuality::default(),
+            std::slice::from_mut(slot),
+        );
+    }
+    assert_eq!(choices[0], choices[1]);
+    // 0.25 m · sin 45° · 40 pixels a metre is 7.07 pixels: as many slices, rounded up.
+    assert_eq!(
+        choices[0],
+        Choice::Slices {
+            axis: SliceAxis::W,
+            exponent: 3,
+            along: false
+        }
+    );
+}

@@ -1,0 +1,177 @@
+//! Sets show what the volume shows, in any count and level.
+
+use bevy::math::{UVec3, Vec3};
+use proptest::prelude::*;
+
+use super::super::build::{VolumeSettings, from_hypertexture};
+use super::super::progress::silent;
+use super::super::topology::Topology;
+use super::*;
+
+/// A volume of what is solid at voxels' centres, whose colours tell where they are.
+fn volume(size: UVec3, solid: impl Fn(Vec3) -> bool + Sync) -> ReferenceVolume {
+    let settings = VolumeSettings {
+        lengths: size.as_vec3(),
+        topology: Topology::Tiling,
+        ..VolumeSettings::new(size)
+    };
+    let density = |at: Vec3| (if solid(at * size.as_vec3()) { 1.0 } else { 0.0 }, at);
+    from_hypertexture(density, &settings, &silent)
+        .unwrap()
+        .volume
+}
+
+/// Whether some slice is opaque at each pixel of a level.
+fn shadow(set: &SliceSet, level: usize) -> Vec<bool> {
+    let level = &set.levels[level];
+    let [width, height] = level.size;
+    let pixels = (0..width * height).map(|i| (i % width, i / width));
+    pixels
+        .map(|(column, row)| {
+            (0..set.count).any(|slice| level.colors[level.index(slice, column, row)][3] != 0)
+        })
+        .collect()
+}
+
+fn opaque(level: &SliceLevel) -> usize {
+    level.colors.iter().filter(|color| color[3] != 0).count()
+}
+
+#[test]
+fn the_fullest_sets_are_the_volume_itself() {
+    let size = UVec3::new(8, 16, 4);
+    let volume = volume(size, |at| {
+        (at.x * 3.0 + at.y * 5.0 + at.z * 7.0) % 4.0 < 2.0
+    });
+    for axis in SliceAxis::ALL {
+        let set = SliceSet::new(&volume, axis, u32::MAX);
+        assert_eq!(set.count, size[axis.index()]);
+        let [across, up] = axis.in_plane();
+        for (x, y, z) in (0..512).map(|i| (i % 8, i / 8 % 16, i / 128)) {
+            let at = [x, y, z];
+            let index = set.levels[0].index(at[axis.index()], at[across.index()], at[up.index()]);
+            let color = volume.color(x, y, z);
+            let found = set.levels[0].colors[index];
+            assert_eq!(found[3], color[3]);
+            if color[3] != 0 {
+                assert_eq!(found, color);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_count_covers_the_same_pixels_seen_along_its_axis() {
+    let size = UVec3::new(16, 8, 32);
+    let volume = volume(size, |at| {
+        at.distance(Vec3::new(8.0, 4.0, 12.0)) < 4.2
+            || (at.x as u32 + at.z as u32).is_multiple_of(13)
+    });
+    let sets = SliceSets::new(&volume, 16);
+    for axis in SliceAxis::ALL {
+        let expected = shadow(&SliceSet::new(&volume, axis, size[axis.index()]), 0);
+        for count in [1, 2, 4, 8, 16] {
+            let set = sets.get(axis, count);
+            assert_eq!(set.count, count.min(size[axis.index()]));
+            assert_eq!(shadow(set, 0), expected, "{axis:?} {count}");
+            assert_eq!(
+                set,
+                &SliceSet::new(&volume, axis, count.min(size[axis.index()]))
+            );
+        }
+        assert_eq!(sets.get(axis, 1000).count, size[axis.index()].min(16));
+    }
+}
+
+#[test]
+fn from_above_one_slice_shows_the_topmost_voxel() {
+    let size = UVec3::new(4, 4, 8);
+    let volume = volume(size, |at| at.z < 1.0 + at.x);
+    let set = SliceSet::new(&volume, SliceAxis::W, 1);
+    for x in 0..4 {
+        let top = volume.color(x, 2, x);
+        let level = &set.levels[0];
+        assert_eq!(level.colors[level.index(0, x, 2)], top);
+    }
+}
+
+#[test]
+fn mip_levels_keep_the_share_of_opaque_pixels() {
+    let size = UVec3::new(64, 64, 16);
+    // Sparse needles and a ball.
+    let volume = volume(size, |at| {
+        let needle = (at.x as u32 * 7 + at.y as u32 * 3).is_multiple_of(23);
+        needle || at.distance(Vec3::new(40.0, 30.0, 8.0)) < 7.0
+    });
+    for axis in SliceAxis::ALL {
+        for count in [size[axis.index()], 4] {
+            let set = SliceSet::new(&volume, axis, count);
+            let pixels = |level: &SliceLevel| level.colors.len() as f64;
+            let share = opaque(&set.levels[0]) as f64 / pixels(&set.levels[0]);
+            for level in &set.levels {
+                // Sums over slices are rounded once: half a pixel of all.
+                let found = opaque(level) as f64;
+                assert!(
+                    (found - share * pixels(level)).abs() <= 0.5,
+                    "{axis:?} {:?}",
+                    level.size
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn levels_shrink_to_one_pixel_and_keep_their_colour() {
+    let volume = volume(UVec3::new(32, 8, 4), |_| true);
+    let set = SliceSet::new(&volume, SliceAxis::W, 4);
+    let sizes: Vec<_> = set.levels.iter().map(|level| level.size).collect();
+    assert_eq!(sizes, [[32, 8], [16, 4], [8, 2], [4, 1], [2, 1], [1, 1]]);
+    // Colours are places, so that the last is the middle; u is red, linear.
+    let table = SrgbTable::new();
+    let [r, g, b, a] = set.levels[5].colors[0];
+    let middle = table.decode([r, g, b]);
+    assert!(
+        (middle - Vec3::new(0.5, 0.5, 0.125)).abs().max_element() < 0.01,
+        "{middle}"
+    );
+    assert_eq!(a, 255);
+    assert_eq!(set.bytes(), 4 * (256 + 64 + 16 + 4 + 2 + 1) * 8);
+}
+
+#[test]
+fn empty_pixels_beside_opaque_ones_have_their_colour() {
+    let volume = volume(UVec3::new(8, 8, 1), |at| at.x < 4.0);
+    let level = &SliceSet::new(&volume, SliceAxis::W, 1).levels[0];
+    let [beside, edge] = [4, 3].map(|x| level.colors[level.index(0, x, 4)]);
+    assert_eq!(beside[3], 0);
+    assert!(beside[0].abs_diff(edge[0]) <= 1 && edge[3] == 255);
+    assert_eq!(level.colors[level.index(0, 6, 4)], [0; 4]);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
+
+    #[test]
+    fn a_level_has_an_opaque_pixel_only_where_the_volume_has_one(bits in prop::collection::vec(0..6u8, 512)) {
+        let size = UVec3::splat(8);
+        prop_assume!(bits.contains(&0));
+        // Normals are differences that reach to the far sides.
+        let voxel = |at: Vec3| at.as_uvec3().min(UVec3::splat(7)).as_usizevec3();
+        let volume = volume(size, |at| bits[(voxel(at).x * 8 + voxel(at).y) * 8 + voxel(at).z] == 0);
+        for axis in SliceAxis::ALL {
+            let set = SliceSet::new(&volume, axis, 8);
+            for (m, level) in set.levels.iter().enumerate() {
+                for slice in 0..8 {
+                    for (column, row) in (0..64 >> (2 * m)).map(|i| (i % (8 >> m), i / (8 >> m))) {
+                        let all = (0..1u32 << (2 * m)).map(|i| (i % (1 << m), i >> m));
+                        let below = all.map(|(x, y)| set.levels[0].index(slice, (column << m) + x, (row << m) + y));
+                        let any = below.into_iter().any(|index| set.levels[0].colors[index][3] != 0);
+                        let opaque = level.colors[level.index(slice, column, row)][3] != 0;
+                        prop_assert!(any || !opaque);
+                    }
+                }
+            }
+        }
+    }
+}
