@@ -40,7 +40,7 @@ struct ReliefTexture {
 const MOST_STEPS: u32 = 1024;
 const MOST_BISECTIONS: u32 = 16;
 
-/// The settings of one material, as `shaders/relief.wgsl` has them.
+/// The settings of one material, as `shaders/shell_radii.wgsl` has them.
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
 #[repr(C)]
 struct ReliefUniform {

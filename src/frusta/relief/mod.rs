@@ -9,7 +9,8 @@
 //! 2. The map's heights are taken from its image, reduced to mip levels and kept beside it (`map.rs`, `library.rs`).
 //! 3. Plants with relief are cut by the planes of half its height, one for the whole shell, so that every point of space
 //!    has one owner (`math/shell.rs`).
-//! 4. `gpu.rs` hands map and settings to the shaders; `shaders/relief.wgsl` marches.
+//! 4. `gpu.rs` hands map and settings to the shaders; `shaders/relief.wgsl` finds u, v and height of a point,
+//!    `shaders/march.wgsl` marches.
 
 mod gpu;
 mod library;
