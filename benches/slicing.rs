@@ -2,7 +2,8 @@
 
 use std::hint::black_box;
 
-use bevy::math::{Mat4, Vec3};
+use bevy::math::Vec3;
+use bevy_verdure::lab::broadleaf_crown;
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::blend::drawn_slices;
@@ -10,14 +11,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 
 fn broadleaf() -> CrownMesh {
     let tree = Broadleaf::default().grow(1);
-    let mut crown = CrownMesh::default();
-    let material = crown.add_material(CrownMaterial::default());
-    for (name, mesh) in [("twigs", &tree.twigs), ("leaves", &tree.leaves)] {
-        crown
-            .add_mesh(name, mesh, Mat4::IDENTITY, material)
-            .expect("a broadleaf's meshes can be baked");
-    }
-    crown
+    broadleaf_crown(&tree).expect("a broadleaf's meshes can be baked")
 }
 
 /// The paper's tree, 19,657 triangles, with the default settings: 7 orientations, 3 levels, 256² pixels, 16 samples each.

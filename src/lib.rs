@@ -22,6 +22,7 @@ pub mod frusta;
 #[cfg(feature = "lab")]
 pub mod lab;
 pub mod plants;
+mod ron_text;
 pub mod skeleton;
 pub mod slicing;
 pub mod texel;

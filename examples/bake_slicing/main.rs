@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use bevy::math::Mat4;
-use bevy_verdure::lab::{ModelPart, load_model, save_slicing};
+use bevy_verdure::lab::{ModelPart, broadleaf_crown, load_model, save_slicing};
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::{bake_with_progress, separate};
@@ -114,13 +114,7 @@ fn run(args: &Args) -> Result<(), String> {
 fn crown(args: &Args) -> Result<(CrownMesh, usize), String> {
     let Some(path) = &args.model else {
         let tree = Broadleaf::default().grow(args.seed);
-        let mut crown = CrownMesh::default();
-        let material = crown.add_material(CrownMaterial::default());
-        for (name, mesh) in [("twigs", &tree.twigs), ("leaves", &tree.leaves)] {
-            crown
-                .add_mesh(name, mesh, Mat4::IDENTITY, material)
-                .map_err(|error| error.to_string())?;
-        }
+        let crown = broadleaf_crown(&tree).map_err(|error| error.to_string())?;
         return Ok((crown, Broadleaf::default().solid_triangles as usize));
     };
     let parts = load_model(path)?;

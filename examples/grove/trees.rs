@@ -4,6 +4,7 @@ use std::path::Path;
 
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
+use bevy_verdure::lab::broadleaf_crown;
 use bevy_verdure::plants::{Broadleaf, BroadleafMeshes, Dice};
 use bevy_verdure::prelude::*;
 use clap::ValueEnum;
@@ -49,13 +50,7 @@ impl Grove {
         let slicing = match slicing {
             Some(path) => Slicing::read(path).map_err(|error| error.to_string())?,
             None => {
-                let mut crown = CrownMesh::default();
-                let material = crown.add_material(CrownMaterial::default());
-                for (name, mesh) in [("twigs", &meshes.twigs), ("leaves", &meshes.leaves)] {
-                    crown
-                        .add_mesh(name, mesh, Mat4::IDENTITY, material)
-                        .map_err(|error| error.to_string())?;
-                }
+                let crown = broadleaf_crown(&meshes).map_err(|error| error.to_string())?;
                 let settings = BakeSettings::default().with_pixels(pixels);
                 bake(&crown, &settings).map_err(|error| error.to_string())?
             }

@@ -2,7 +2,7 @@
 
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
-use bevy_verdure::lab::{GpuClockPlugin, Studio, adapter_name};
+use bevy_verdure::lab::{GpuClockPlugin, Studio, adapter_name, broadleaf_crown};
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
 
@@ -41,13 +41,7 @@ impl Lab {
                 });
         });
         let tree = Broadleaf::default().grow(1);
-        let mut crown = CrownMesh::default();
-        let material = crown.add_material(CrownMaterial::default());
-        for (name, mesh) in [("twigs", &tree.twigs), ("leaves", &tree.leaves)] {
-            crown
-                .add_mesh(name, mesh, Mat4::IDENTITY, material)
-                .expect("a broadleaf's meshes can be baked");
-        }
+        let crown = broadleaf_crown(&tree).expect("a broadleaf's meshes can be baked");
         let world = studio.world();
         world.spawn((
             DirectionalLight {

@@ -60,15 +60,19 @@ pub(super) fn build(render_app: &mut SubApp) {
         );
 }
 
-/// Gives deferred frusta materials the draw function of this file. Bevy prepares a material anew, with its own function,
-/// whenever it changes.
+/// Gives deferred frusta materials the draw function of this file, when some were prepared: Bevy prepares a material anew,
+/// with its own function, whenever it changes.
 fn replace_draw_functions(
     mut materials: ResMut<ErasedRenderAssets<PreparedMaterial>>,
     functions: Res<DrawFunctions<AlphaMask3d>>,
 ) {
+    if !materials.is_changed() {
+        return;
+    }
     let ours = functions.read().id::<DrawUnlessDeferred>();
     let frusta = TypeId::of::<FrustaMaterial>();
-    for (id, material) in materials.iter_mut() {
+    // What is done here counts as no change: it would be seen as one in the next frame.
+    for (id, material) in materials.bypass_change_detection().iter_mut() {
         if id.type_id() == frusta
             && material.properties.render_method == OpaqueRendererMethod::Deferred
             && let Some(properties) = Arc::get_mut(&mut material.properties)

@@ -3,9 +3,7 @@
 use std::fmt;
 
 use bevy::math::DVec3;
-use ron::Options;
 use ron::error::{Error as RonError, SpannedError};
-use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 use serde::de::{Error as _, SeqAccess, Visitor};
 use serde::ser::SerializeStruct;
@@ -15,6 +13,7 @@ use super::error::{SkeletonError, SkeletonFileError, SkeletonFileErrorKind};
 use super::joint::Joint;
 use super::skeleton::{MAX_JOINTS, Skeleton};
 use super::text::{decode, shorten};
+use crate::ron_text::{options, reaches_end};
 
 /// What stands for the path in an error about text that came from no file.
 const NO_PATH: &str = "<text>";
@@ -62,7 +61,7 @@ impl Skeleton {
     /// equal skeleton, to the last bit of every number.
     pub fn to_ron(&self) -> String {
         let layout = PrettyConfig::new().depth_limit(2).new_line("\n");
-        let mut text = options()
+        let mut text = options(RECURSION_LIMIT)
             .to_string_pretty(self, layout)
             .expect("a list of plain numbers can always be written");
         text.push('\n');
@@ -91,17 +90,10 @@ impl Skeleton {
 
 /// Reads the text of a `*.skeleton.ron` file.
 pub(super) fn read(text: &str) -> Result<Skeleton, SkeletonFileError> {
-    let document: SkeletonDocument = options()
+    let document: SkeletonDocument = options(RECURSION_LIMIT)
         .from_str(text)
         .map_err(|error| explain(&error, text))?;
     Ok(Skeleton::try_from(document)?)
-}
-
-/// `parent: 0` stands for `parent: Some(0)`.
-fn options() -> Options {
-    Options::default()
-        .with_default_extension(Extensions::IMPLICIT_SOME)
-        .with_recursion_limit(RECURSION_LIMIT)
 }
 
 /// Says what to do about an error of the RON parser in `text`.
@@ -124,17 +116,6 @@ fn explain(error: &SpannedError, text: &str) -> SkeletonFileError {
         fix,
     };
     SkeletonFileError::on_line(error.span.end.line as u64, kind)
-}
-
-/// Whether the parser had read all of `text` when it met the error.
-fn reaches_end(error: &SpannedError, text: &str) -> bool {
-    let end = error.span.end;
-    let mut lines = text.split('\n').skip(end.line.saturating_sub(1));
-    let line = lines.next().unwrap_or_default();
-    let unread = line.chars().skip(end.col.saturating_sub(1));
-    unread
-        .chain(lines.flat_map(str::chars))
-        .all(char::is_whitespace)
 }
 
 /// Reads no more than [`MAX_JOINTS`] joints, whatever the length that the data claims.

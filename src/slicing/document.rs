@@ -6,8 +6,6 @@
 use bevy::asset::RenderAssetUsages;
 use bevy::image::{CompressedImageFormats, Image, ImageSampler, ImageType};
 use bevy::math::Vec3;
-use ron::Options;
-use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +13,7 @@ use super::error::{SlicingFileError, SlicingFileErrorKind};
 use super::limits::{MAX_ORIENTATIONS, MAX_PIXELS, MAX_SLICES};
 use super::orientation::Orientation;
 use super::slicing::{Slicing, SlicingShape};
+use crate::ron_text::options;
 
 /// Largest `*.slicing.ron`, in bytes: many times what the most orientations take.
 pub(super) const MAX_TEXT_BYTES: usize = 1 << 20;
@@ -76,7 +75,7 @@ impl SlicingDocument {
             };
             return Err(SlicingFileError::new(path, kind));
         }
-        let options = options().with_recursion_limit(RECURSION_LIMIT);
+        let options = options(RECURSION_LIMIT);
         let document: Self = options.from_bytes(bytes).map_err(|error| {
             let mut message = error.code.to_string();
             if let Some((end, _)) = message.char_indices().nth(MAX_MESSAGE) {
@@ -125,7 +124,7 @@ impl SlicingDocument {
     /// The text of the document.
     pub fn to_ron(&self) -> String {
         let layout = PrettyConfig::new().depth_limit(3).new_line("\n");
-        let mut text = options()
+        let mut text = options(RECURSION_LIMIT)
             .to_string_pretty(self, layout)
             .expect("plain numbers and names can always be written");
         text.push('\n');
@@ -205,11 +204,6 @@ impl Slicing {
         }
         [color, normal]
     }
-}
-
-/// Fields that may be left out are simply left out.
-fn options() -> Options {
-    Options::default().with_default_extension(Extensions::IMPLICIT_SOME)
 }
 
 /// Reads a picture of a size that is known beforehand; `path` names it in errors.

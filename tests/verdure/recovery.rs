@@ -19,9 +19,9 @@ fn count_devices(mut devices: ResMut<Devices>) {
     devices.0 += 1;
 }
 
-#[test]
-fn plants_come_back_after_their_device_is_lost() {
-    let mut studio = Studio::new(|app| {
+/// A studio whose app goes on with another device when it has lost one.
+pub fn recovering_studio() -> Studio {
+    Studio::new(|app| {
         app.insert_resource(RenderErrorHandler(|error, _, _| match error.ty {
             ErrorType::DeviceLost => RenderErrorPolicy::Recover(default()),
             _ => panic!("{error:?}"),
@@ -31,7 +31,29 @@ fn plants_come_back_after_their_device_is_lost() {
             Update,
             count_devices.run_if(resource_changed::<RenderDevice>),
         );
-    });
+    })
+}
+
+/// Takes the device away, and waits for the next one to be in use.
+pub fn lose_device(studio: &mut Studio) {
+    let lost = studio.world().resource::<RenderDevice>().clone();
+    lost.wgpu_device().destroy();
+    // An error here is the lost device's, which the next frame reports.
+    let _ = lost.poll(PollType::wait_indefinitely());
+    let patience = Instant::now() + Duration::from_secs(60);
+    while studio.world().resource::<Devices>().0 < 2 {
+        assert!(Instant::now() < patience, "no new device");
+        studio.headless.step();
+    }
+    // Bevy starts its renderer, and takes over assets, in the frames after.
+    for _ in 0..4 {
+        studio.headless.step();
+    }
+}
+
+#[test]
+fn plants_come_back_after_their_device_is_lost() {
+    let mut studio = recovering_studio();
     let skeleton = TREE.grow(&mut Dice::new(3));
     let (centre, radius) = ball(&skeleton);
     let shot = Shot {
@@ -50,20 +72,7 @@ fn plants_come_back_after_their_device_is_lost() {
     studio.plant(skeleton, Frusta::default(), beside);
     let before = pixels(&studio.measure(&shot));
     assert!(before.iter().flatten().count() > 500);
-    let lost = studio.world().resource::<RenderDevice>().clone();
-    lost.wgpu_device().destroy();
-    // An error here is the lost device's, which the next frame reports.
-    let _ = lost.poll(PollType::wait_indefinitely());
-    let devices = |world: &mut World| world.resource::<Devices>().0;
-    let patience = Instant::now() + Duration::from_secs(60);
-    while devices(studio.world()) < 2 {
-        assert!(Instant::now() < patience, "no new device");
-        studio.headless.step();
-    }
-    // Bevy starts its renderer, and takes over assets, in the frames after.
-    for _ in 0..4 {
-        studio.headless.step();
-    }
+    lose_device(&mut studio);
     assert_eq!(pixels(&studio.measure(&shot)), before);
 }
 

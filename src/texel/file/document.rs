@@ -3,9 +3,7 @@
 use std::str;
 
 use bevy::math::{UVec3, Vec3};
-use ron::Options;
 use ron::error::{Error as RonError, SpannedError};
-use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
 
@@ -15,6 +13,7 @@ use super::super::topology::Topology;
 use super::super::volume::{ReferenceVolume, VolumeParts, check_size};
 use super::error::{TexelFileError, TexelFileErrorKind};
 use super::{MAX_DOCUMENT_BYTES, images};
+use crate::ron_text::{options, reaches_end};
 
 /// Levels of brackets that a file may nest.
 const RECURSION_LIMIT: usize = 16;
@@ -71,7 +70,7 @@ impl TexelDocument {
     /// Its text.
     pub fn to_ron(&self) -> String {
         let layout = PrettyConfig::new().depth_limit(1).new_line("\n");
-        let mut text = options()
+        let mut text = options(RECURSION_LIMIT)
             .to_string_pretty(self, layout)
             .expect("plain numbers and names can always be written");
         text.push('\n');
@@ -89,10 +88,13 @@ impl TexelDocument {
         }
         let text = str::from_utf8(bytes).map_err(|_| fail(TexelFileErrorKind::NotUtf8))?;
         let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
-        let document: Self = options().from_str(text).map_err(|error| TexelFileError {
-            line: Some(error.span.end.line as u64),
-            ..fail(explain(&error, text))
-        })?;
+        let document: Self =
+            options(RECURSION_LIMIT)
+                .from_str(text)
+                .map_err(|error| TexelFileError {
+                    line: Some(error.span.end.line as u64),
+                    ..fail(explain(&error, text))
+                })?;
         document.check().map_err(fail)?;
         Ok(document)
     }
@@ -161,13 +163,6 @@ impl TexelDocument {
     }
 }
 
-/// `thickness: (1, 1, 1)` stands for `thickness: Some((1, 1, 1))`.
-fn options() -> Options {
-    Options::default()
-        .with_default_extension(Extensions::IMPLICIT_SOME)
-        .with_recursion_limit(RECURSION_LIMIT)
-}
-
 /// Says what to do about an error of the RON parser in `text`.
 fn explain(error: &SpannedError, text: &str) -> TexelFileErrorKind {
     let fix = match error.code {
@@ -191,15 +186,4 @@ fn explain(error: &SpannedError, text: &str) -> TexelFileErrorKind {
         message: error.code.to_string().chars().take(MAX_MESSAGE).collect(),
         fix,
     }
-}
-
-/// Whether the parser had read all of `text` when it met the error.
-fn reaches_end(error: &SpannedError, text: &str) -> bool {
-    let end = error.span.end;
-    let mut lines = text.split('\n').skip(end.line.saturating_sub(1));
-    let line = lines.next().unwrap_or_default();
-    let unread = line.chars().skip(end.col.saturating_sub(1));
-    unread
-        .chain(lines.flat_map(str::chars))
-        .all(char::is_whitespace)
 }

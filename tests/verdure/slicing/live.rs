@@ -1,14 +1,11 @@
 //! Crowns that change while they are on screen.
 
-use std::time::{Duration, Instant};
-
 use bevy::prelude::*;
-use bevy::render::error_handler::{ErrorType, RenderErrorHandler, RenderErrorPolicy};
-use bevy::render::render_resource::PollType;
-use bevy::render::renderer::RenderDevice;
-use bevy_verdure::lab::{Lens, Studio};
+use bevy_verdure::lab::Lens;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::{SlicedCrownMaterial, SlicingShape};
+
+use crate::recovery::{lose_device, recovering_studio};
 
 use super::{CROWN, UNLIT, covered, eye, mean, plant, shot, studio};
 
@@ -104,56 +101,28 @@ fn far_crowns_have_fewer_slices_and_no_change_of_brightness() {
     let (mut studio, _) = studio(UNLIT);
     let radius = CROWN.shape().radius;
     // From 8 to 30 radii, with a lens that keeps the crown's size.
-    let mut greens = Vec::new();
+    let mut blues = Vec::new();
     for step in 0..=44 {
         let distance = radius * (8.0 + 0.5 * step as f32);
         let mut look = shot(eye(15.0, 3.0, distance));
         look.lens = Lens::Perspective(2.0 * (1.3 * radius / distance).atan());
-        greens.push(mean(&studio.photograph(&look, Color::WHITE), 2));
+        blues.push(mean(&studio.photograph(&look, Color::WHITE), 2));
     }
-    for (step, pair) in greens.windows(2).enumerate() {
+    for (step, pair) in blues.windows(2).enumerate() {
         // Of 0 to 255 over a picture that the crown fills half.
         assert!((pair[1] - pair[0]).abs() < 6.0, "{step}: {pair:?}");
     }
-    plant(&mut studio, UNLIT, Transform::from_xyz(0.0, 0.0, -3.0));
 }
-
-/// How many devices an app has had.
-#[derive(Resource, Default)]
-struct Devices(usize);
 
 #[test]
 fn crowns_come_back_after_their_device_is_lost() {
-    let mut studio = Studio::new(|app| {
-        app.insert_resource(RenderErrorHandler(|error, _, _| match error.ty {
-            ErrorType::DeviceLost => RenderErrorPolicy::Recover(default()),
-            _ => panic!("{error:?}"),
-        }))
-        .init_resource::<Devices>()
-        .add_systems(
-            Update,
-            (|mut devices: ResMut<Devices>| devices.0 += 1)
-                .run_if(resource_changed::<RenderDevice>),
-        );
-    });
+    let mut studio = recovering_studio();
     plant(&mut studio, UNLIT, Transform::IDENTITY);
     let look = shot(eye(75.0, 10.0, 16.0));
     studio.headless.step();
     let before = studio.photograph(&look, Color::BLACK);
     assert!(covered(&before, [0; 3]) > 2000);
-    let lost = studio.world().resource::<RenderDevice>().clone();
-    lost.wgpu_device().destroy();
-    // An error here is the lost device's, which the next frame reports.
-    let _ = lost.poll(PollType::wait_indefinitely());
-    let patience = Instant::now() + Duration::from_secs(60);
-    while studio.world().resource::<Devices>().0 < 2 {
-        assert!(Instant::now() < patience, "no new device");
-        studio.headless.step();
-    }
-    // Bevy starts its renderer, and takes over assets, in the frames after.
-    for _ in 0..4 {
-        studio.headless.step();
-    }
+    lose_device(&mut studio);
     let after = studio.photograph(&look, Color::BLACK);
     assert_eq!(after.rgb_bytes(), before.rgb_bytes());
 }

@@ -9,7 +9,7 @@ mod steady;
 use std::sync::LazyLock;
 
 use bevy::prelude::*;
-use bevy_verdure::lab::{Lens, Pixels, Shot, Studio};
+use bevy_verdure::lab::{Lens, Pixels, Shot, Studio, broadleaf_crown};
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
 
@@ -25,13 +25,7 @@ static CROWN: LazyLock<Slicing> = LazyLock::new(|| {
         ..default()
     }
     .grow(3);
-    let mut crown = CrownMesh::default();
-    let material = crown.add_material(CrownMaterial::default());
-    for (name, mesh) in [("twigs", &tree.twigs), ("leaves", &tree.leaves)] {
-        crown
-            .add_mesh(name, mesh, Mat4::IDENTITY, material)
-            .expect("a broadleaf's meshes can be baked");
-    }
+    let crown = broadleaf_crown(&tree).expect("a broadleaf's meshes can be baked");
     let settings = BakeSettings {
         samples: 2,
         ..BakeSettings::default().with_pixels(64)
