@@ -1,5 +1,6 @@
 //! What a game's author puts on an entity.
 
+use bevy::asset::{AsAssetId, AssetId};
 use bevy::camera::visibility::NoAutoAabb;
 use bevy::mesh::MeshTag;
 use bevy::prelude::*;
@@ -25,6 +26,14 @@ use super::slicing::Slicing;
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(CrownSettings, CrownTint, MeshTag, NoAutoAabb, Transform, Visibility)]
 pub struct SlicedCrown(pub Handle<Slicing>);
+
+impl AsAssetId for SlicedCrown {
+    type Asset = Slicing;
+
+    fn as_asset_id(&self) -> AssetId<Slicing> {
+        self.0.id()
+    }
+}
 
 /// How a [`SlicedCrown`] is put together. Filled in where a crown has none; may be changed at any time. Crowns of one
 /// slicing and the same settings are drawn together.
@@ -80,9 +89,9 @@ impl Default for CrownTint {
 }
 
 impl CrownTint {
-    /// The tint as the shaders get it.
-    pub(super) fn tag(self) -> u32 {
+    /// The tint as the shaders get it, and in the fourth byte what tells a crown's lots from its neighbours'.
+    pub(super) fn tag(self, seed: u8) -> u32 {
         let [r, g, b, _] = self.0.to_srgba().to_u8_array();
-        u32::from_le_bytes([r, g, b, 255])
+        u32::from_le_bytes([r, g, b, seed])
     }
 }

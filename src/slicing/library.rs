@@ -1,5 +1,6 @@
 //! What is on the GPU for the slicings in use, and the systems that keep it up to date.
 
+use bevy::asset::prelude::AssetChanged;
 use bevy::asset::{AssetEvent, AssetId, RenderAssetUsages};
 use bevy::camera::primitives::Aabb;
 use bevy::image::{Image, ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
@@ -157,6 +158,7 @@ fn images(slicing: &Slicing) -> [Image; 2] {
 type Unattached = Or<(
     Without<MeshMaterial3d<SlicedCrownMaterial>>,
     Changed<SlicedCrown>,
+    AssetChanged<SlicedCrown>,
     Changed<CrownSettings>,
 )>;
 
@@ -197,7 +199,6 @@ pub(crate) fn follow_slicings(
     slicings: Res<Assets<Slicing>>,
     wind: Res<Wind>,
     device: Option<Res<bevy::render::renderer::RenderDevice>>,
-    mut crowns: Query<(&SlicedCrown, &mut Aabb)>,
 ) {
     let mut edited: HashSet<AssetId<Slicing>> = HashSet::default();
     for event in events.read() {
@@ -212,9 +213,6 @@ pub(crate) fn follow_slicings(
     for id in &edited {
         if let (Some(shared), Some(slicing)) = (library.shared.get_mut(id), slicings.get(*id)) {
             shared.renew(slicing, wind.limited(), &mut assets);
-            for (_, mut aabb) in crowns.iter_mut().filter(|(crown, _)| crown.0.id() == *id) {
-                aabb.set_if_neq(shared.bounds);
-            }
         }
     }
 }
@@ -222,26 +220,24 @@ pub(crate) fn follow_slicings(
 /// Tells the materials of a change of wind.
 pub(crate) fn follow_wind(
     library: Res<CrownLibrary>,
-    mut assets: CrownAssets,
-    slicings: Res<Assets<Slicing>>,
+    mut materials: ResMut<Assets<SlicedCrownMaterial>>,
     wind: Res<Wind>,
 ) {
-    for (id, shared) in &library.shared {
-        let Some(slicing) = slicings.get(*id) else {
-            continue;
-        };
-        for (settings, material) in &shared.materials {
-            if let Some(mut material) = assets.materials.get_mut(material) {
-                material.crown = CrownUniform::new(slicing.shape(), settings, wind.limited());
-            }
+    let wind = wind.limited().extend(0.0);
+    let all = library.shared.values();
+    for material in all.flat_map(|shared| shared.materials.values()) {
+        if let Some(mut material) = materials.get_mut(material) {
+            material.crown.wind = wind;
         }
     }
 }
 
 /// Tells the meshes' tags of changed tints.
-pub(crate) fn tint(mut crowns: Query<(&CrownTint, &mut MeshTag), Changed<CrownTint>>) {
-    for (tint, mut tag) in &mut crowns {
-        tag.set_if_neq(MeshTag(tint.tag()));
+pub(crate) fn tint(mut crowns: Query<(Entity, &CrownTint, &mut MeshTag), Changed<CrownTint>>) {
+    for (entity, tint, mut tag) in &mut crowns {
+        // The places of instances on the GPU change from frame to frame and from pass to pass; an entity stays.
+        let [seed, ..] = entity.to_bits().to_le_bytes();
+        tag.set_if_neq(MeshTag(tint.tag(seed)));
     }
 }
 

@@ -49,7 +49,7 @@ pub(crate) struct CrownUniform {
     vertical: u32,
     flexibility: f32,
     /// Velocity of the wind.
-    wind: Vec4,
+    pub(crate) wind: Vec4,
     orientations: [OrientationUniform; MAX_ORIENTATIONS],
 }
 

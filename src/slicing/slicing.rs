@@ -1,7 +1,7 @@
 //! The baked crown: what is promised of it.
 
 use bevy::asset::Asset;
-use bevy::math::{Vec2, Vec3};
+use bevy::math::Vec3;
 use bevy::reflect::Reflect;
 
 use super::error::SlicingError;
@@ -66,16 +66,6 @@ impl SlicingShape {
     pub fn first_layer(&self, level: usize, orientation: usize) -> usize {
         let before: u32 = self.levels[..level].iter().sum();
         before as usize * self.orientations.len() + orientation * self.levels[level] as usize
-    }
-
-    /// Corner of slice `index` of a level at a place in its picture; local space.
-    pub fn place(&self, orientation: usize, level: usize, index: u32, uv: Vec2) -> Vec3 {
-        let o = &self.orientations[orientation];
-        let size = o.high - o.low;
-        self.centroid
-            + o.right * (o.low.x + uv.x * size.x)
-            + o.up * (o.high.y - uv.y * size.y)
-            + o.direction * o.offset(index, self.levels[level])
     }
 
     pub(super) fn check(&self) -> Result<(), SlicingError> {

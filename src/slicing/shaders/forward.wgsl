@@ -1,8 +1,6 @@
 // The main pass: slices lit by the scene.
 
 #import bevy_pbr::{
-    mesh_types::MESH_FLAGS_SHADOW_RECEIVER_BIT,
-    mesh_view_bindings::view,
     pbr_functions,
     pbr_types,
 }

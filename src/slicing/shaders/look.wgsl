@@ -17,7 +17,7 @@ struct Look {
 
 fn slice_color(in: Varying) -> vec4<f32> {
     var color = textureSample(color_texture, slice_sampler, in.uv, in.layer);
-    color *= unpack4x8unorm(mesh[in.instance_index].tag);
+    color = vec4(color.rgb * unpack4x8unorm(mesh[in.instance_index].tag).rgb, color.a);
     color.a *= in.opacity;
 #ifdef CROWN_FRAMES
 #ifndef PREPASS_PIPELINE
@@ -61,7 +61,7 @@ fn is_there(in: Varying, alpha: f32, footprint: f32) -> bool {
     // Cells are of sizes in powers of two.
     let cells = exp2(ceil(-log2(max(footprint, 1e-5))));
     let cell = vec2<u32>(floor(in.uv * cells));
-    let number = pcg(cell.x + pcg(cell.y + pcg(in.layer + in.instance_index * 256u)));
+    let number = pcg(cell.x + pcg(cell.y + pcg(in.layer + (mesh[in.instance_index].tag >> 24u) * 256u)));
     return f32(number) * (1.0 / 4294967296.0) < alpha;
 }
 

@@ -112,7 +112,9 @@ fn place_corner(in: Corner) -> Varying {
     if any(crown.wind.xyz != vec3(0.0)) {
         let foot_height = crown.centroid.y - crown.radius;
         let height = clamp((local.y - foot_height) / (2.0 * crown.radius), 0.0, 1.0);
-        moved = sway(crown.wind.xyz, origin, height, crown.flexibility, globals.time);
+        // Flexibility is in local metres, of which one is so long in the world.
+        let metre = length(vec3(m[0].y, m[1].y, m[2].y));
+        moved = sway(crown.wind.xyz, origin, height, crown.flexibility * metre, globals.time);
         // Near slices move more than far ones, each in its own time.
         let nearness = (f32(slice.index) + 0.5) / f32(count);
         moved *= 1.0 + FLUTTER * nearness * sin(5.3 * globals.time + 2.4 * f32(slice.index) + dot(origin.xz, vec2(1.7)));
@@ -127,7 +129,8 @@ fn place_corner(in: Corner) -> Varying {
 #endif
     out.position = clip;
     out.world_position = vec4(from_eye + view.world_position, 1.0);
-    out.local_position = local;
+    // Moved likewise in the frame before, so that motion vectors leave wind out.
+    out.local_position = local + local_from_world(in.instance_index) * moved;
     out.uv = uv;
     out.layer = layer;
     out.opacity = slice.opacity;

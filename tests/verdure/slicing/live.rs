@@ -1,7 +1,7 @@
 //! Crowns that change while they are on screen.
 
 use bevy::prelude::*;
-use bevy_verdure::lab::Lens;
+use bevy_verdure::lab::{Lens, Studio};
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::{SlicedCrownMaterial, SlicingShape};
 
@@ -112,6 +112,35 @@ fn far_crowns_have_fewer_slices_and_no_change_of_brightness() {
         // Of 0 to 255 over a picture that the crown fills half.
         assert!((pair[1] - pair[0]).abs() < 6.0, "{step}: {pair:?}");
     }
+}
+
+#[test]
+fn a_crown_that_is_given_a_slicing_still_loading_takes_it_when_it_is_there() {
+    let (mut studio, crown) = studio(UNLIT);
+    let material = |studio: &mut Studio| {
+        let world = studio.world();
+        let material = world.get::<MeshMaterial3d<SlicedCrownMaterial>>(crown);
+        material.map(|material| material.id())
+    };
+    let before = material(&mut studio);
+    assert!(before.is_some());
+    let loading = studio
+        .world()
+        .resource::<Assets<Slicing>>()
+        .reserve_handle();
+    studio
+        .world()
+        .entity_mut(crown)
+        .insert(SlicedCrown(loading.clone()));
+    studio.headless.step();
+    // Until then it stays as it was.
+    assert_eq!(material(&mut studio), before);
+    let mut slicings = studio.world().resource_mut::<Assets<Slicing>>();
+    slicings.insert(&loading, CROWN.clone()).unwrap();
+    // Changes of assets are seen in the frame after.
+    studio.headless.step();
+    studio.headless.step();
+    assert_ne!(material(&mut studio), before);
 }
 
 #[test]
