@@ -167,7 +167,7 @@ fn make_folder(path: &Path) -> Result<(), String> {
 }
 
 fn build(source: &Source, output: &Output) -> Result<Built, String> {
-    // One dot for each tenth of a step.
+    // The line is written anew at each tenth of a step.
     let told = AtomicUsize::new(0);
     let progress = |step: BuildStep, share: f32| {
         let now = step as usize * 10 + (share * 10.0) as usize;

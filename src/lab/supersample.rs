@@ -2,12 +2,14 @@
 
 use bevy::math::UVec2;
 
+use crate::texel::color::{linear_to_srgb, srgb_to_linear};
+
 /// Averages squares of `factor` × `factor` pixels of 8-bit sRGB colours, in linear light, as a sensor would.
 ///
 /// # Panics
 /// If there are fewer bytes than the size, `factor` times as large in both directions, asks for.
 pub fn box_downsample(size: UVec2, factor: u32, rgb: &[u8]) -> Vec<u8> {
-    let linear: [f32; 256] = core::array::from_fn(|byte| to_linear(byte as f32 / 255.0));
+    let linear: [f32; 256] = core::array::from_fn(|byte| srgb_to_linear(byte as f32 / 255.0));
     let row = (size.x * factor * 3) as usize;
     let share = 1.0 / (factor * factor) as f32;
     let mut small = Vec::with_capacity((size.x * size.y * 3) as usize);
@@ -23,28 +25,10 @@ pub fn box_downsample(size: UVec2, factor: u32, rgb: &[u8]) -> Vec<u8> {
                 }
             }
         }
-        let bytes = sums.iter().map(|sum| to_srgb(sum * share));
+        let bytes = sums.iter().map(|sum| linear_to_srgb(sum * share));
         small.extend(bytes.map(|value| (value * 255.0).round() as u8));
     }
     small
-}
-
-/// IEC 61966-2-1, from 0..1 to 0..1.
-fn to_linear(encoded: f32) -> f32 {
-    if encoded <= 0.040_45 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-/// The reverse.
-fn to_srgb(linear: f32) -> f32 {
-    if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
 }
 
 #[cfg(test)]

@@ -5,8 +5,6 @@
 //! thickness of contours; d, how deep one may see into a contour; p, the distance of slices on screen, in pixels; z,
 //! the depth of the texel from the eye; f, the distance of the screen from the eye in pixels. L, h, e, d and z are
 //! lengths of one unit.
-//!
-//! `shaders/` has these functions term for term.
 
 /// The tangent of the view angle, √(1 − c²)/c; infinite along the slices. Any sign of c will do.
 pub fn tan_view_angle(c: f32) -> f32 {

@@ -154,7 +154,7 @@ fn paint(material: &StandardMaterial, images: &Assets<Image>) -> Result<Paint, S
             let image = images
                 .get(handle)
                 .ok_or(ShapeMeshError::NotLoaded(handle.id()))?;
-            Some(texture(image)?)
+            Some(texture(image, material.alpha_mode == AlphaMode::Opaque)?)
         }
         None => None,
     };
@@ -169,12 +169,14 @@ fn paint(material: &StandardMaterial, images: &Assets<Image>) -> Result<Paint, S
     })
 }
 
-fn texture(image: &Image) -> Result<PaintTexture, ShapeMeshError> {
+/// The pixels of an image. Where the material is opaque alpha says nothing of its colours.
+fn texture(image: &Image, is_opaque: bool) -> Result<PaintTexture, ShapeMeshError> {
     let size = [image.width(), image.height()];
     let mut pixels = Vec::with_capacity((size[0] * size[1]) as usize);
     for y in 0..size[1] {
         for x in 0..size[0] {
-            pixels.push(image.get_color_at(x, y)?.to_srgba().to_u8_array());
+            let [r, g, b, a] = image.get_color_at(x, y)?.to_srgba().to_u8_array();
+            pixels.push([r, g, b, if is_opaque { 255 } else { a }]);
         }
     }
     Ok(PaintTexture::new(size, &pixels))
@@ -242,6 +244,29 @@ mod tests {
                 .iter()
                 .all(|&i| i >= 24)
         );
+    }
+
+    #[test]
+    fn alpha_counts_where_a_material_is_masked_and_nowhere_else() {
+        let mut images = Assets::<Image>::default();
+        let mut paint_with = |alpha: u8, alpha_mode: AlphaMode| {
+            let image = Image::new(
+                bevy::render::render_resource::Extent3d::default(),
+                bevy::render::render_resource::TextureDimension::D2,
+                vec![10, 200, 30, alpha],
+                bevy::render::render_resource::TextureFormat::Rgba8UnormSrgb,
+                RenderAssetUsages::default(),
+            );
+            let material = StandardMaterial {
+                base_color_texture: Some(images.add(image)),
+                alpha_mode,
+                ..Default::default()
+            };
+            paint(&material, &images).unwrap()
+        };
+        assert!(paint_with(0, AlphaMode::Opaque) == paint_with(255, AlphaMode::Opaque));
+        let mask = AlphaMode::Mask(0.5);
+        assert!(paint_with(0, mask) != paint_with(255, mask));
     }
 
     #[test]

@@ -195,6 +195,10 @@ impl ReferencePrism {
             look(volume, cell).map(|hit| VoxelHit { t, uvw, ..hit })
         };
         let count = ((to - from) / step).ceil().max(1.0);
+        // Height vectors of no length leave no step.
+        if !count.is_finite() {
+            return None;
+        }
         let mut before = from;
         for i in 0..=count as usize {
             let t = (from + i as f64 * step).min(to);

@@ -2,6 +2,7 @@
 //! 1997) and hypertextures (K. Perlin and E. Hoffert, *Hypertexture*, 1989).
 
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use bevy::math::Vec3;
 
@@ -65,6 +66,7 @@ fn evaluate(
         }
     };
     let step = Vec3::ONE / size.as_vec3();
+    let done = AtomicUsize::new(0);
     for_each_chunk(&mut draft.cells, layer, |z, cells| {
         for (i, cell) in cells.iter_mut().enumerate() {
             let (x, y) = (i as u32 % size.x, i as u32 / size.x);
@@ -83,7 +85,9 @@ fn evaluate(
                 *cell = Cell::coloured(color(at), normal);
             }
         }
-        progress(BuildStep::Slicing, (z + 1) as f32 / size.z as f32);
+        // Slices are not done in order.
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress(BuildStep::Slicing, done as f32 / size.z as f32);
     });
     if let Some((_, error)) = failure.into_inner().expect("nothing here panics") {
         return Err(error);

@@ -10,12 +10,14 @@
 //! off). A line through the centres therefore crosses a closed surface an even number of times, and every crossing
 //! colours the voxel that it lies in.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use bevy::math::{DVec2, DVec3, Vec2, Vec3, Vec4};
 
 use super::super::parallel::for_each_chunk;
 use super::super::progress::{BuildStep, Progress};
 use super::super::topology::Topology;
-use super::draft::{Cell, Draft, Mark};
+use super::draft::{Cell, Draft};
 use super::shape::{Filling, Shape};
 
 /// Slices that one thread takes at a time.
@@ -61,6 +63,7 @@ pub(super) fn rasterise(
     let layer = draft.layer();
     let mut sums = vec![Sum::default(); draft.cells.len()];
     let slabs = (draft.size.z as usize).div_ceil(SLAB);
+    let done = AtomicUsize::new(0);
     for_each_chunk(&mut sums, layer * SLAB, |slab, sums| {
         let mut target = Target {
             size: draft.size.to_array(),
@@ -81,15 +84,13 @@ pub(super) fn rasterise(
                 }
             }
         }
-        progress(BuildStep::Slicing, (slab + 1) as f32 / slabs as f32);
+        // Slabs are not done in order.
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        progress(BuildStep::Slicing, done as f32 / slabs as f32);
     });
     for (cell, sum) in draft.cells.iter_mut().zip(sums) {
         if sum.count > 0.0 {
-            *cell = Cell {
-                color: sum.color / sum.count,
-                normal: sum.normal / sum.count,
-                mark: Mark::Coloured,
-            };
+            *cell = Cell::coloured(sum.color / sum.count, sum.normal / sum.count);
         }
     }
     facets.iter().filter(|facet| facet.area == 0.0).count()

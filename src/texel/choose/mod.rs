@@ -23,10 +23,10 @@ pub struct VolumeMeasure {
 }
 
 impl VolumeMeasure {
-    /// Of a volume of which there are sets of at most `most` slices.
+    /// Of a volume of which there are sets of at most `most` slices, rounded down to a power of two.
     pub fn of(volume: &ReferenceVolume, most: u32) -> Self {
         Self {
-            most: volume.size().min(UVec3::splat(most.max(1))),
+            most: volume.size().min(UVec3::splat(1 << most.max(1).ilog2())),
             lengths: volume.lengths(),
             thickness: volume.thickness(),
         }

@@ -20,7 +20,7 @@ fn along(axis: SliceAxis, uv: Vec2) -> f32 {
 }
 
 /// The numbers k of all slices that cut a facet, for N slices a texel: along u or v those of which
-/// [`slice_line`] finds a line, along w all N.
+/// [`slice_line`] finds a line, along w all N. Numbers beyond those of an `i32` are left out.
 pub fn slice_range(uvs: [Vec2; 3], axis: SliceAxis, count: u32) -> Range<i32> {
     if axis == SliceAxis::W {
         return 0..count as i32;
@@ -29,7 +29,7 @@ pub fn slice_range(uvs: [Vec2; 3], axis: SliceAxis, count: u32) -> Range<i32> {
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     // As slice_line decides: the first position above the least, up to the greatest.
     let n = count as f32;
-    let first_above = |value: f32| (value * n - 0.5).floor() as i32 + 1;
+    let first_above = |value: f32| ((value * n - 0.5).floor() as i32).saturating_add(1);
     first_above(low)..first_above(high).max(first_above(low))
 }
 

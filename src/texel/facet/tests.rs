@@ -237,3 +237,10 @@ fn the_sphere_holds_the_whole_prism() {
         assert!(point.distance(centre) <= radius * (1.0 + 1e-6));
     }
 }
+
+#[test]
+fn the_numbers_of_slices_stop_where_an_integer_does() {
+    let uvs = [1e12, 2e12, -1e12].map(Vec2::splat);
+    let range = slice_range(uvs, SliceAxis::U, 64);
+    assert_eq!(range, i32::MIN + 1..i32::MAX);
+}

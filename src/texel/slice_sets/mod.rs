@@ -192,8 +192,8 @@ impl SliceSets {
     /// The set of `count` slices, a power of two, along an axis, or the one of most slices if there are not as many.
     pub fn get(&self, axis: SliceAxis, count: u32) -> &SliceSet {
         let sets = &self.sets[axis.index()];
-        let exponent = count.max(1).next_power_of_two().ilog2() as usize;
-        &sets[exponent.min(sets.len() - 1)]
+        let most = 1 << (sets.len() - 1);
+        &sets[count.clamp(1, most).next_power_of_two().ilog2() as usize]
     }
 
     /// All of them: along u, v, then w, the fewest slices first.

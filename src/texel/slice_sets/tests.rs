@@ -79,7 +79,9 @@ fn every_count_covers_the_same_pixels_seen_along_its_axis() {
                 &SliceSet::new(&volume, axis, count.min(size[axis.index()]))
             );
         }
-        assert_eq!(sets.get(axis, 1000).count, size[axis.index()].min(16));
+        for count in [1000, u32::MAX] {
+            assert_eq!(sets.get(axis, count).count, size[axis.index()].min(16));
+        }
     }
 }
 

@@ -215,3 +215,18 @@ fn rays_that_start_inside_or_miss_say_so() {
     let behind = texels.cast(inside + DVec3::X * 9.0, DVec3::X, 0.0);
     assert!(behind.is_none());
 }
+
+#[test]
+fn a_ray_through_a_prism_that_has_no_height_at_a_corner_comes_to_an_end() {
+    let volume = volume(UVec3::new(4, 4, 4), |_| true);
+    let mut facet = facet();
+    facet.heights[0] = DVec3::ZERO;
+    let prism = ReferencePrism::new(facet);
+    let (origin, dir) = (DVec3::new(0.4, 0.3, 5.0), DVec3::NEG_Z);
+    let range = [0.0, f64::INFINITY];
+    assert!(
+        prism
+            .cast(&volume, origin, dir, range, ReferenceSteps::default())
+            .is_none()
+    );
+}
