@@ -36,8 +36,8 @@ use bevy::prelude::*;
 pub mod prelude {
     pub use crate::frusta::{
         Ends, Frusta, FrustaExtension, FrustaMaterial, FrustaOutput, FrustaStats, Join,
-        MeshSettings, Relief, ReliefSteps, ReliefThickness, ShadingNormals, frusta_material,
-        relief_material,
+        MeshSettings, Relief, ReliefMarch, ReliefSteps, ReliefThickness, ShadingNormals,
+        frusta_material, relief_material,
     };
     pub use crate::skeleton::{
         Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,

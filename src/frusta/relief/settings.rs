@@ -36,6 +36,8 @@ pub struct Relief {
     pub level: f32,
     /// How many steps a ray takes through the shell. More find thinner features.
     pub steps: ReliefSteps,
+    /// Whether steps through air are taken one by one or leapt over.
+    pub march: ReliefMarch,
     /// Halvings of the step in which a ray meets the relief, at most 16. Each halves the error of depth and texture
     /// coordinates.
     pub bisections: u32,
@@ -51,6 +53,7 @@ impl Relief {
             thickness,
             level: 0.0,
             steps: ReliefSteps::default(),
+            march: ReliefMarch::default(),
             bisections: 4,
             v: ReliefV::default(),
         }
@@ -103,6 +106,18 @@ pub enum ReliefSteps {
     Auto,
     /// So many, 1 to 1024.
     Fixed(u32),
+}
+
+/// How a ray gets through the air above the relief. Both look at the same steps of the same ray and find the same hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum ReliefMarch {
+    /// Looks at every step (the paper's choice, §3).
+    #[default]
+    Uniform,
+    /// Leaps over steps that a mip level of greatest heights tells to be in air. Takes twice the memory for the map.
+    /// Worth it with many steps only: `docs/speed_accuracy.md` charts both.
+    Leaping,
 }
 
 /// How v is found at a point of a ray. `docs/limits.md` charts by how much interpolation is off.

@@ -21,6 +21,8 @@ struct ReliefSettings {
     unused_a: u32,
     unused_b: u32,
     unused_c: u32,
+    // Where the ceilings of each mip level begin.
+    ceilings: array<vec4<u32>, 4>,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(103) var<uniform> relief: ReliefSettings;
