@@ -81,6 +81,7 @@ pub struct FrustaKey {
 const RELIEF: u8 = 1;
 const RELIEF_INTERPOLATED_V: u8 = 2;
 const RELIEF_LEAPING: u8 = 4;
+const RELIEF_SELF_SHADOW: u8 = 8;
 
 fn relief_bits(relief: &Relief) -> u8 {
     let bit = |bit, set| if set { bit } else { 0 };
@@ -90,6 +91,7 @@ fn relief_bits(relief: &Relief) -> u8 {
     RELIEF
         | bit(RELIEF_INTERPOLATED_V, relief.v == ReliefV::Interpolated)
         | bit(RELIEF_LEAPING, relief.march == ReliefMarch::Leaping)
+        | bit(RELIEF_SELF_SHADOW, relief.self_shadow > 0)
 }
 
 /// Bindings of the extension; [`StandardMaterial`] uses those below.
@@ -243,6 +245,7 @@ impl MaterialExtension for FrustaExtension {
             (RELIEF, "FRUSTA_RELIEF"),
             (RELIEF_INTERPOLATED_V, "FRUSTA_INTERPOLATED_V"),
             (RELIEF_LEAPING, "FRUSTA_LEAPING"),
+            (RELIEF_SELF_SHADOW, "FRUSTA_SELF_SHADOW"),
         ] {
             if relief & bit != 0 {
                 defs.push(def.into());

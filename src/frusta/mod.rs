@@ -108,6 +108,7 @@ impl Plugin for FrustaPlugin {
         load_shader_library!(app, "shaders/relief.wgsl");
         load_shader_library!(app, "shaders/leap.wgsl");
         load_shader_library!(app, "shaders/march.wgsl");
+        load_shader_library!(app, "shaders/self_shadow.wgsl");
         load_shader_library!(app, "shaders/trace.wgsl");
         load_shader_library!(app, "shaders/material.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");

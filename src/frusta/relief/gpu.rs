@@ -39,9 +39,10 @@ struct ReliefTexture {
     with_ceilings: OnceLock<TextureView>,
 }
 
-/// Greatest number of steps, and of halvings, that a setting may ask for.
+/// Greatest number of steps, of halvings, and of steps towards the light that a setting may ask for.
 const MOST_STEPS: u32 = 1024;
 const MOST_BISECTIONS: u32 = 16;
+const MOST_SELF_SHADOW: u32 = 64;
 
 /// The settings of one material, as `shaders/shell_radii.wgsl` has them.
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
@@ -57,7 +58,8 @@ struct ReliefUniform {
     /// Pixels of the map.
     size: [f32; 2],
     bisections: u32,
-    unused: [u32; 3],
+    self_shadow: u32,
+    unused: [u32; 2],
     /// Where the ceilings of each mip level begin.
     ceilings: [u32; 16],
 }
@@ -165,7 +167,8 @@ fn uniform(relief: &Relief, texture: &ReliefTexture) -> ReliefUniform {
         },
         size: texture.map.size.map(|side| side as f32),
         bisections: relief.bisections.min(MOST_BISECTIONS),
-        unused: [0; 3],
+        self_shadow: relief.self_shadow.min(MOST_SELF_SHADOW),
+        unused: [0; 2],
         ceilings: first_ceilings(texture.map.size),
     }
 }

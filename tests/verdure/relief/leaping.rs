@@ -9,10 +9,10 @@ use bevy_verdure::prelude::*;
 use super::{THICKNESS, image, limb};
 
 /// No powers of two: levels whose pixels overlap.
-const MAP: UVec2 = UVec2::new(150, 97);
+pub const MAP: UVec2 = UVec2::new(150, 97);
 
 /// Studs with much air between them, which leaps must not pass through.
-fn studs() -> HeightImage {
+pub fn studs() -> HeightImage {
     HeightImage::from_fn(MAP.x as usize, MAP.y as usize, |u, v| {
         let off = |x: f64, n: f64| (x * n).fract() - 0.5;
         let (x, y) = (off(u, 7.0), off(v, 3.0));

@@ -4,6 +4,7 @@ mod agreement;
 mod bad_input;
 mod leaping;
 mod passes;
+mod self_shadow;
 
 use core::f32::consts::TAU;
 
