@@ -8,8 +8,8 @@ use bevy_verdure::prelude::*;
 
 use super::common::texture::painted;
 
-/// Ribs round a cactus.
-const RIBS: f32 = 11.0;
+/// Ribs round a cactus: even, since tufts change from rib to rib.
+const RIBS: f32 = 12.0;
 /// Petals of a flower; each is a segment.
 pub const PETALS: usize = 5;
 

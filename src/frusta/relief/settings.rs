@@ -2,6 +2,7 @@
 
 use bevy::prelude::*;
 
+use crate::frusta::double::shell as double;
 use crate::frusta::material::{FrustaMaterial, frusta_material};
 use crate::frusta::single::shell::{ShellShape, Thickness};
 
@@ -92,6 +93,18 @@ impl Relief {
             level: self.level,
         };
         (shape.thickness.at(1.0) > 0.0).then_some(shape)
+    }
+
+    /// The same shell as [`MeshRelief`](crate::frusta::MeshRelief) has it, for polygons of the same surface.
+    pub fn mesh_shell(&self) -> Option<double::ShellShape> {
+        let shape = self.shell()?;
+        Some(double::ShellShape {
+            thickness: match shape.thickness {
+                Thickness::Metres(h) => double::Thickness::Metres(f64::from(h)),
+                Thickness::Relative(share) => double::Thickness::Relative(f64::from(share)),
+            },
+            level: f64::from(shape.level),
+        })
     }
 }
 

@@ -116,6 +116,12 @@ fn coordinates_at(shell: Shell, point: vec3<f32>, ends: VEnds, share: f32) -> ve
     return c;
 }
 
+// How fast a ray passes over the surface below a point: its part across the direction away from the axis.
+fn tangential(radial: vec3<f32>, d: vec3<f32>) -> f32 {
+    let across = radial / max(length(radial), 1e-6);
+    return length(d - across * dot(d, across));
+}
+
 // Where a ray meets the relief.
 struct ReliefHit {
     hit: Hit,
@@ -156,12 +162,10 @@ fn march(ray: Ray, shell: Shell, least_t: f32, exact: bool) -> ReliefHit {
     let density = map_density(shell, distance);
     let densest = max(density.x, density.y);
     let lod = mip_level(pixel * densest);
-    let across = radial / max(distance, 1e-6);
-    let run = d * (span.y - span.x);
-    let tangential = length(run - across * dot(run, across));
     var steps = f32(relief.steps);
     if relief.steps == 0u {
-        steps = clamp(ceil(tangential / max(pixel, 1.0 / densest)) + 1.0, LEAST_STEPS, MOST_STEPS);
+        let pixels = tangential(radial, d) * (span.y - span.x) / max(pixel, 1.0 / densest);
+        steps = clamp(ceil(pixels) + 1.0, LEAST_STEPS, MOST_STEPS);
     }
 
     var ends = VEnds(false, 0.0, 0.0);
@@ -178,7 +182,7 @@ fn march(ray: Ray, shell: Shell, least_t: f32, exact: bool) -> ReliefHit {
     var is_hit = false;
 #ifdef FRUSTA_LEAPING
     let levels = ceiling_levels(lod);
-    var level = ceiling_level(tangential * densest, levels);
+    var level = ceiling_level(tangential(radial, d) * (span.y - span.x) * densest, levels);
     let step = (span.y - span.x) / steps;
     var above_c = vec3(0.0);
     var is_over_known = false;
