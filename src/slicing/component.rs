@@ -46,8 +46,8 @@ pub struct CrownSettings {
     pub order: SliceOrder,
     /// How many of the furthest slices of each slicing are left out, as the paper allows (§2.3).
     pub left_out: u32,
-    /// Whether the crown is lit by the scene; else it has the colours of its pictures.
-    pub lit: bool,
+    /// What lights the crown.
+    pub lighting: CrownLighting,
     /// Whether each slice has a frame, as in the paper's Figure 3.
     pub frames: bool,
 }
@@ -58,7 +58,7 @@ impl Default for CrownSettings {
             composition: Composition::default(),
             order: SliceOrder::default(),
             left_out: 0,
-            lit: true,
+            lighting: CrownLighting::default(),
             frames: false,
         }
     }
@@ -75,6 +75,25 @@ pub enum Composition {
     /// Testing*, I3D 2017): no order, depth is written, so that prepasses and deferred rendering see the crown. Grainy
     /// without temporal anti-aliasing.
     Hashed,
+}
+
+/// What lights a [`SlicedCrown`]. A blended crown is some ten slices deep and lit in each, so that light is what costs
+/// most; the figures are shares of what [`Full`](Self::Full) takes on a software driver.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum CrownLighting {
+    /// As Bevy lights a `StandardMaterial`: every kind of light, environment maps, gloss, filtered shadows.
+    Full,
+    /// Directional lights with their shadow maps, ambient light and fog. Leaves scatter light evenly, gloss included, and
+    /// shadows are looked up without a filter, whose work the layers of the crown do. About half of `Full`, and in a
+    /// picture of a grove no further from the mesh.
+    ///
+    /// While the world has a point, spot or rectangular light, an environment map, an irradiance volume, a light with a
+    /// texture or an atmosphere, even a hidden one, such crowns are lit as by `Full`.
+    #[default]
+    Simple,
+    /// By nothing: the crown has the colours of its pictures, in fog. About a quarter of `Full`.
+    Unlit,
 }
 
 /// Multiplies the colours of a [`SlicedCrown`], so that neighbours differ: 8 bits of sRGB a channel, 1 at most.
