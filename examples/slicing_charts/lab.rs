@@ -13,6 +13,8 @@ pub struct Lab {
     pub adapter: String,
     /// Whether to measure less.
     pub quick: bool,
+    /// Numbers of trees that were asked for.
+    trees: Vec<u32>,
     looks: Looks,
 }
 
@@ -32,7 +34,7 @@ pub enum Drawn {
 }
 
 impl Lab {
-    pub fn open(quick: bool) -> Self {
+    pub fn open(quick: bool, trees: Vec<u32>) -> Self {
         let mut studio = Studio::new(|app| {
             app.add_plugins(GpuClockPlugin)
                 .insert_resource(GlobalAmbientLight {
@@ -79,6 +81,7 @@ impl Lab {
             crown,
             adapter,
             quick,
+            trees,
             looks: Looks {
                 solid,
                 leaves,
@@ -86,6 +89,15 @@ impl Lab {
                 wood,
                 green,
             },
+        }
+    }
+
+    /// Numbers of trees to measure: those that were asked for, or these.
+    pub fn trees(&self, usual: &[u32]) -> Vec<u32> {
+        if self.trees.is_empty() {
+            usual.to_vec()
+        } else {
+            self.trees.clone()
         }
     }
 

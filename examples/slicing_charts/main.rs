@@ -6,7 +6,9 @@
 
 mod accuracy;
 mod cost;
+mod grove;
 mod lab;
+mod parts;
 
 use std::path::PathBuf;
 
@@ -27,13 +29,17 @@ struct Args {
     /// Fewer trees, eyes and settings.
     #[arg(long)]
     quick: bool,
+    /// How many trees, for charts of cost.
+    #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    trees: Vec<u32>,
 }
 
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 5] = [
+const EXPERIMENTS: [Experiment; 6] = [
     ("slicing_cost", cost::against_trees),
+    ("slicing_parts", parts::against_trees),
     ("slicing_slices", accuracy::against_slices),
     ("slicing_orientations", accuracy::against_orientations),
     ("slicing_pixels", accuracy::against_pixels),
@@ -44,7 +50,7 @@ fn main() -> Result<(), String> {
     let args = Args::parse();
     for (name, chart) in EXPERIMENTS {
         if name.contains(&args.only) {
-            let mut lab = Lab::open(args.quick);
+            let mut lab = Lab::open(args.quick, args.trees.clone());
             chart(&mut lab)?.save(&args.out, name)?;
             println!("{}", args.out.join(name).with_extension("png").display());
         }

@@ -115,8 +115,16 @@ pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS
     slots
 }
 
-/// Two levels of detail and their shares for an eye so many radii from the centroid: that of the first level, and 1
-/// minus it of the next coarser one.
+/// The screen that levels of detail are made for: pixels that a metre takes one metre away. 480 lines of 52° have so many.
+pub const FOCAL: f32 = 500.0;
+
+/// How many radii away a crown would be as small on the screen of [`FOCAL`] as it is so many radii away on one of `focal`.
+pub fn apparent_distance(distance: f32, focal: f32) -> f32 {
+    distance * FOCAL / focal
+}
+
+/// Two levels of detail and their shares for a crown that is, apparently, so many radii away: that of the first level,
+/// and 1 minus it of the next coarser one.
 pub fn levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (usize, f32) {
     if order == SliceOrder::Paper {
         return (0, 1.0);
@@ -167,7 +175,8 @@ pub struct DrawnSlice {
     pub opacity: f32,
 }
 
-/// All slices for an eye at `eye`, from the centroid in local space, in the order in which they are drawn: far to near.
+/// All slices for an eye at `eye`, from the centroid in local space, on the screen of [`FOCAL`], in the order in which they
+/// are drawn: far to near.
 /// `left_out` of the furthest ones of each slicing are not.
 pub fn drawn_slices(
     shape: &SlicingShape,
@@ -205,9 +214,18 @@ pub fn drawn_slices(
     drawn
 }
 
-/// The slices that cast shadows for light from `direction` (unit), that of a directional light: those of the nearest
-/// orientation, in the finest level of detail, since the crown shades itself in as many steps as there are slices.
-pub fn cast_slices(shape: &SlicingShape, direction: Vec3) -> Vec<DrawnSlice> {
+/// The slices that cast shadows for light from `direction` (unit), that of a directional light, into a shadow map in which
+/// the crown is as small as it apparently is so many radii away: those of the nearest orientation, in one level of
+/// detail. What is next to the light comes first, and hides the rest from the depth test on.
+pub fn cast_slices(
+    shape: &SlicingShape,
+    direction: Vec3,
+    distance: f32,
+    order: SliceOrder,
+) -> Vec<DrawnSlice> {
+    let (level, share) = levels(shape, distance, order);
+    let level = level + usize::from(share < 0.5);
+    let count = shape.levels[level];
     let (mut nearest, mut greatest) = (0, -2.0);
     for (i, o) in shape.orientations.iter().enumerate() {
         let cosine = o.direction.dot(direction);
@@ -215,13 +233,17 @@ pub fn cast_slices(shape: &SlicingShape, direction: Vec3) -> Vec<DrawnSlice> {
             (nearest, greatest) = (i as u32, cosine);
         }
     }
-    let slice = |index| DrawnSlice {
+    let slice = |number| DrawnSlice {
         orientation: nearest,
-        level: 0,
-        index,
+        level: level as u32,
+        index: if greatest >= 0.0 {
+            count - 1 - number
+        } else {
+            number
+        },
         opacity: 1.0,
     };
-    (0..shape.levels[0]).map(slice).collect()
+    (0..count).map(slice).collect()
 }
 
 #[cfg(test)]
@@ -372,13 +394,19 @@ mod tests {
     fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
         let shape = shape(Orientations::Circle(6), true);
         for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {
-            let cast = cast_slices(&shape, light);
-            assert_eq!(cast.len(), 5);
-            assert!(
-                cast.iter()
-                    .all(|s| s.orientation == orientation && s.opacity == 1.0),
-                "{light}"
-            );
+            for (distance, count) in [(1.0, 5), (9.9, 5), (10.1, 3), (24.0, 3), (26.0, 1)] {
+                let cast = cast_slices(&shape, light, distance, SliceOrder::Steady);
+                // The slice next to the light has the greatest number, and comes first.
+                let numbers: Vec<u32> = cast.iter().map(|s| s.index).collect();
+                assert_eq!(numbers, (0..count).rev().collect::<Vec<u32>>());
+                assert!(
+                    cast.iter()
+                        .all(|s| s.orientation == orientation && s.opacity == 1.0),
+                    "{light}"
+                );
+            }
+            let paper = cast_slices(&shape, light, 26.0, SliceOrder::Paper);
+            assert_eq!(paper.len(), 5);
         }
     }
 

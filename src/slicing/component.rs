@@ -96,7 +96,8 @@ pub enum CrownLighting {
     Unlit,
 }
 
-/// Multiplies the colours of a [`SlicedCrown`], so that neighbours differ: 8 bits of sRGB a channel, 1 at most.
+/// Multiplies the light that a [`SlicedCrown`] sends back, channel by channel, so that neighbours differ, as the base colour
+/// of a `StandardMaterial` multiplies its texture. From 0 to 1 in linear light, kept as a root of 8 bits; alpha means nothing.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct CrownTint(pub Color);
@@ -110,7 +111,10 @@ impl Default for CrownTint {
 impl CrownTint {
     /// The tint as the shaders get it, and in the fourth byte what tells a crown's lots from its neighbours'.
     pub(super) fn tag(self, seed: u8) -> u32 {
-        let [r, g, b, _] = self.0.to_srgba().to_u8_array();
+        let [r, g, b, _] = self.0.to_linear().to_f32_array().map(|light| {
+            // Roots are as fine in the dark as in the light.
+            (255.0 * light.clamp(0.0, 1.0).sqrt()).round() as u8
+        });
         u32::from_le_bytes([r, g, b, seed])
     }
 }

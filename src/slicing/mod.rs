@@ -94,6 +94,7 @@ impl Plugin for SlicingPlugin {
     fn build(&self, app: &mut App) {
         load_shader_library!(app, "shaders/types.wgsl");
         load_shader_library!(app, "shaders/blend.wgsl");
+        load_shader_library!(app, "shaders/lots.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/look.wgsl");
         load_shader_library!(app, "shaders/simple.wgsl");
