@@ -1,4 +1,4 @@
-//! The paper's Figure 4: time of a frame against the number of trees, slicings against meshes.
+//! Time of a frame against the number of trees: the paper's Figure 4, and the same for other ways to draw crowns.
 
 use bevy::prelude::*;
 use bevy_verdure::lab::charts::{Axis, Chart, Series};
@@ -11,55 +11,69 @@ use super::lab::{Drawn, Lab};
 /// Most trees that are drawn as meshes.
 const MESHES: u32 = 128;
 
+/// A way to draw trees: its name, how, and whether crowns cast shadows.
+pub type Way = (String, Drawn, bool);
+
 pub fn against_trees(lab: &mut Lab) -> Result<Chart, String> {
     let slicing = lab.bake(&BakeSettings::default())?;
-    let (mut sliced, mut meshed) = (Vec::new(), Vec::new());
-    let clock = Clock::of(lab.studio.world());
+    let ways = [
+        (
+            "slicing".into(),
+            Drawn::Slicing(slicing, CrownSettings::default()),
+            true,
+        ),
+        ("mesh".into(), Drawn::Mesh, true),
+    ];
     let usual: &[u32] = if lab.quick {
         &[1, 16, 128]
     } else {
         &[1, 4, 16, 64, 128, 256, 1000]
     };
-    for count in lab.trees(usual) {
-        let ways = [
-            Some(Drawn::Slicing(slicing.clone(), CrownSettings::default())),
-            (count <= MESHES).then_some(Drawn::Mesh),
-        ];
-        let groups: Vec<_> = ways
-            .into_iter()
-            .flatten()
-            .map(|way| grove::plant(lab, &way, count, true))
-            .collect();
-        let groups = &groups;
-        let mut variants: Vec<Variant> = [None]
-            .into_iter()
-            .chain((0..groups.len()).map(Some))
-            .map(|shown| {
-                Variant::new(format!("{shown:?}"), move |headless: &mut Headless| {
-                    grove::show(headless.world(), groups, shown)
-                })
-            })
+    costs(
+        lab,
+        "Cost of a grove, 640 x 480, shadow maps on",
+        usual,
+        &ways,
+    )
+}
+
+/// What each of some ways costs above the empty scene, all in one race for each number of trees.
+pub fn costs(lab: &mut Lab, title: &str, usual: &[u32], ways: &[Way]) -> Result<Chart, String> {
+    let clock = Clock::of(lab.studio.world());
+    let mut series: Vec<_> = ways
+        .iter()
+        .map(|(name, ..)| Series::line(name.as_str(), Vec::<(f64, f64)>::new()))
+        .collect();
+    for trees in lab.trees(usual) {
+        let is_drawn = |drawn: &Drawn| trees <= MESHES || !matches!(drawn, Drawn::Mesh);
+        let drawn: Vec<usize> = (0..ways.len()).filter(|i| is_drawn(&ways[*i].1)).collect();
+        let groups: Vec<_> = drawn
+            .iter()
+            .map(|i| grove::plant(lab, &ways[*i].1, trees, ways[*i].2))
             .collect();
         lab.studio
             .photograph(&grove::SHOT, Color::srgb(0.6, 0.8, 1.0));
+        let groups = &groups;
+        let mut variants: Vec<Variant> = [None]
+            .into_iter()
+            .chain((0..drawn.len()).map(Some))
+            .map(|shown| {
+                let name = shown.map_or("empty", |i| ways[drawn[i]].0.as_str());
+                Variant::new(name, move |headless: &mut Headless| {
+                    grove::show(headless.world(), groups, shown);
+                })
+            })
+            .collect();
         let race = Race {
-            rounds: if lab.quick { 5 } else { 9 },
+            rounds: if lab.quick { 5 } else { 21 },
             warm_up: 1,
             settle: 2,
         };
         let timings = race.run(&mut lab.studio.headless, &mut variants);
-        drop(variants);
-        let above: Vec<f64> = timings[1..]
-            .iter()
-            .map(|timing| timing.less(&timings[0]).ms(clock))
-            .collect();
-        println!(
-            "{count} trees: {above:.2?} ms above {:.2} ms",
-            timings[0].ms(clock)
-        );
-        sliced.push((f64::from(count), above[0]));
-        if let Some(ms) = above.get(1) {
-            meshed.push((f64::from(count), *ms));
+        for (timing, i) in timings[1..].iter().zip(&drawn) {
+            let above = timing.less(&timings[0]).ms(clock);
+            println!("{trees} trees, {}: {above:.1} ms", timing.name);
+            series[*i].points.push((f64::from(trees), above).into());
         }
         for tree in groups.iter().flatten() {
             lab.studio.world().despawn(*tree);
@@ -67,13 +81,10 @@ pub fn against_trees(lab: &mut Lab) -> Result<Chart, String> {
         lab.studio.headless.step();
     }
     Ok(Chart {
-        title: "Cost of a grove, 640 x 480, shadow maps on".into(),
+        title: title.into(),
         subtitle: lab.adapter.clone(),
         x: Axis::log("trees"),
         y: Axis::log(format!("{} above the empty scene's (ms)", clock.label())),
-        series: vec![
-            Series::line("slicing", sliced),
-            Series::line("mesh", meshed),
-        ],
+        series,
     })
 }

@@ -31,6 +31,8 @@ struct Looks {
 pub enum Drawn {
     Mesh,
     Slicing(Handle<Slicing>, CrownSettings),
+    /// Flat pictures.
+    Billboards(Vec<(Handle<Mesh>, Handle<StandardMaterial>)>),
 }
 
 impl Lab {
@@ -135,6 +137,11 @@ impl Lab {
                 Drawn::Mesh => {
                     for (mesh, material) in parts {
                         tree.spawn((Mesh3d(mesh), MeshMaterial3d(material)));
+                    }
+                }
+                Drawn::Billboards(pair) => {
+                    for (mesh, material) in pair {
+                        tree.spawn((Mesh3d(mesh.clone()), MeshMaterial3d(material.clone())));
                     }
                 }
                 Drawn::Slicing(slicing, settings) => {

@@ -9,6 +9,7 @@ mod cost;
 mod grove;
 mod lab;
 mod parts;
+mod rivals;
 
 use std::path::PathBuf;
 
@@ -37,9 +38,11 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 6] = [
+const EXPERIMENTS: [Experiment; 8] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
+    ("slicing_rivals_error", rivals::errors),
+    ("slicing_rivals_cost", rivals::cost),
     ("slicing_slices", accuracy::against_slices),
     ("slicing_orientations", accuracy::against_orientations),
     ("slicing_pixels", accuracy::against_pixels),

@@ -26,10 +26,12 @@
 //! * Slices of a rank are drawn in the order of their orientations instead of the secondary before the primary one.
 //!   Orientations only come and go at opacity 0, so nothing pops where primary and secondary are swapped. The paper's
 //!   order is kept as [`SliceOrder::Paper`].
+//! * Blended slicings cover together what one of them covers alone, place by place ([`blend::covered`]), instead of by one
+//!   correction f_c for the whole crown.
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
 //! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
 //! * Levels of fewer slices take over with distance, faded into one another.
-//! * Directional lights see the one slicing that faces them.
+//! * Directional lights see the one slicing that faces them, in fewer slices than the eye.
 //! * Wind moves near slices more than far ones; see [`wind`](crate::wind).
 //!
 //! # What it does not do

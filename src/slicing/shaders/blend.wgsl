@@ -8,6 +8,7 @@ const SLOTS: u32 = 3u;
 const RISE: vec2<f32> = vec2(0.5, 0.866);
 const FADE: f32 = 0.1;
 const FOCAL: f32 = 500.0;
+const SUREST: f32 = 0.96;
 
 struct Slot {
     orientation: u32,
@@ -120,11 +121,14 @@ fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
     return min(weight * (1.0 + correction * (1.0 - greatest)), 1.0);
 }
 
+fn covered(alpha: f32, weight: f32) -> f32 {
+    return (1.0 - pow(1.0 - SUREST * alpha, weight)) / SUREST;
+}
+
 // The slice that is drawn in the `number`th place, far to near, for an eye in a direction (unit) from the centroid and
 // apparently so many radii away; of no opacity where there is none.
 fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
     let detail = levels(distance);
-    let greatest_share = max(detail.y, 1.0 - detail.y);
     // The coarser level comes first, where it shows at all.
     var level = u32(detail.x);
     var share = detail.y;
@@ -144,7 +148,7 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
         return DrawnSlice(0u, 0u, 0u, 0.0);
     }
     let slots = slots(direction);
-    let greatest = max(max(slots[0].weight, slots[1].weight), slots[2].weight) * greatest_share;
+    let greatest = max(max(slots[0].weight, slots[1].weight), slots[2].weight);
     var slot = slots[0];
     if place % SLOTS == 1u {
         slot = slots[1];
@@ -156,15 +160,23 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
         slot.orientation,
         level,
         select(count - 1u - rank, rank, faces),
+#ifdef CROWN_PAPER_ORDER
         corrected(slot.weight * share, greatest, crown.correction),
+#else
+        slot.weight * share,
+#endif
     );
 }
 
-// The slices that cast shadows for light from a direction: those of the nearest orientation, in the level for the size of
-// the shadow map's pixels. What is next to the light comes first, and hides the rest from the depth test on.
+// The slices that cast shadows for light from a direction: those of the nearest orientation, in the level next to that for
+// the size of the shadow map's pixels. What is next to the light comes first, and hides the rest from the depth test on.
 fn cast_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
     let detail = levels(distance);
-    let level = u32(detail.x) + select(0u, 1u, detail.y < 0.5);
+#ifdef CROWN_PAPER_ORDER
+    let level = 0u;
+#else
+    let level = min(u32(detail.x) + select(1u, 2u, detail.y < 0.5), crown.levels.w - 1u);
+#endif
     let count = crown.levels[level];
     if number >= count {
         return DrawnSlice(0u, 0u, 0u, 0.0);

@@ -3,6 +3,7 @@
 // The fragment stage of all passes: what a slice looks like at a place.
 
 #import bevy_verdure::slicing::types::{color_texture, normal_texture, slice_sampler}
+#import bevy_verdure::slicing::blend::covered
 #import bevy_verdure::slicing::place::Varying
 
 struct Facing {
@@ -14,7 +15,11 @@ struct Facing {
 
 fn slice_color(in: Varying) -> vec4<f32> {
     var color = textureSample(color_texture, slice_sampler, in.uv, in.layer);
+#ifdef CROWN_PAPER_ORDER
     color.a *= in.opacity;
+#else ifndef CROWN_LIGHT_VIEW
+    color.a = covered(color.a, in.opacity);
+#endif
 #ifndef CROWN_LIGHT_VIEW
     color = vec4(color.rgb * in.tint, color.a);
 #endif
