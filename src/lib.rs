@@ -44,8 +44,8 @@ pub mod prelude {
         UnfoldSkeleton,
     };
     pub use crate::slicing::{
-        BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
-        Orientations, SliceOrder, SlicedCrown, Slicing, bake,
+        BakeSettings, Composition, CrownLighting, CrownMaterial, CrownMesh, CrownSettings,
+        CrownTint, Orientations, SliceOrder, SlicedCrown, Slicing, bake,
     };
     pub use crate::wind::Wind;
     pub use crate::{VerdurePlugin, VerdureSystems};
