@@ -1,6 +1,7 @@
 //! The direction and the number of slices of every facet, for one view (§4.2, §4.3).
 
 use bevy::math::{UVec3, Vec3, Vec4};
+use bevy::reflect::{Reflect, std_traits::ReflectDefault};
 
 use super::axis::SliceAxis;
 use super::criteria::{
@@ -49,7 +50,8 @@ pub struct TexelView {
 }
 
 /// By what the direction of slices is chosen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum DirectionRule {
     /// By h·tan(a), how far aside a slice stands from the next: the paper's, for one e of all directions.
     #[default]
@@ -60,7 +62,8 @@ pub enum DirectionRule {
 }
 
 /// What may be seen of slices.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq)]
 pub struct TexelQuality {
     /// By what the direction is chosen.
     pub direction: DirectionRule,

@@ -1,0 +1,87 @@
+//! What a game's author puts on an entity.
+
+use bevy::mesh::{MeshVertexAttribute, VertexFormat};
+use bevy::prelude::*;
+
+use super::super::asset::TexelVolume;
+use super::super::choose::TexelQuality;
+
+/// Height vectors of a mesh (§2.1): a mesh attribute, in the mesh's space, from each vertex to the top of the texels
+/// there. Where a mesh has none, they are as long as a surface's [`thickness`](TexelSurface::thickness) and follow
+/// the normals.
+pub const ATTRIBUTE_HEIGHT_VECTOR: MeshVertexAttribute = MeshVertexAttribute::new(
+    "Vertex_Height_Vector",
+    0x5645_5244_5552_4503,
+    VertexFormat::Float32x3,
+);
+
+/// Covers the mesh of the same entity with a volume: grass, fur, pebbles, a far forest.
+///
+/// The entity's [`Mesh3d`] says where: its triangles, the sides that carry texels turned counterclockwise to the eye; its
+/// texture coordinates, of which each square from whole numbers to whole numbers is one texel; and its height vectors
+/// ([`ATTRIBUTE_HEIGHT_VECTOR`]), or its normals. The mesh must be kept in the main world (as by
+/// `RenderAssetUsages::default()`). It is drawn as ever, if it has a material; so give it the colour of the ground.
+///
+/// Triangles without area, or whose height vectors lead through the surface, carry no texels.
+///
+/// ```
+/// # use bevy::prelude::*;
+/// # use bevy_verdure::texel::*;
+/// fn sow(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, server: Res<AssetServer>) {
+///     let lawn = Plane3d::default().mesh().size(4.0, 4.0).subdivisions(3).build();
+///     commands.spawn((
+///         Mesh3d(meshes.add(lawn)),
+///         TexelSurface {
+///             volume: server.load("grass.texel.ron"),
+///             thickness: 0.3,
+///         },
+///     ));
+/// }
+/// ```
+#[derive(Component, Clone, Debug, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[require(TexelSettings, Transform, Visibility)]
+pub struct TexelSurface {
+    /// What it is covered with.
+    pub volume: Handle<TexelVolume>,
+    /// Length of the height vectors where the mesh has none, in the mesh's units.
+    pub thickness: f32,
+}
+
+impl Default for TexelSurface {
+    fn default() -> Self {
+        Self {
+            volume: Handle::default(),
+            thickness: 1.0,
+        }
+    }
+}
+
+/// How a [`TexelSurface`] is drawn. Filled in where it has none; may be changed at any time.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct TexelSettings {
+    /// What may be seen of slices; decides how many are drawn.
+    pub quality: TexelQuality,
+    /// The most slices a texel in any direction, rounded down to a power of two. Memory, and the slots that are kept
+    /// ready for slices on each facet, grow with it.
+    pub most_slices: u32,
+    /// Whether the scene lights the texels; else they have the colours of the volume.
+    pub lit: bool,
+    /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`.
+    pub roughness: f32,
+    /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`.
+    pub reflectance: f32,
+}
+
+impl Default for TexelSettings {
+    fn default() -> Self {
+        Self {
+            quality: TexelQuality::default(),
+            most_slices: 256,
+            lit: true,
+            roughness: 0.8,
+            reflectance: 0.3,
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! What surfaces of one mesh share: facets and slots.
+
+use bevy::asset::{Assets, Handle};
+use bevy::camera::primitives::Aabb;
+use bevy::log::warn;
+use bevy::math::{UVec3, Vec3};
+use bevy::mesh::Mesh;
+use bevy::render::storage::ShaderBuffer;
+
+use super::super::facet::{Facet, SurfaceFacets};
+use super::records::facet_buffer;
+use super::slots::{MAX_SLOTS, slot_mesh, slots_of};
+use super::surface_mesh::{TexelSurfaceError, surface};
+
+/// The facets of a mesh, on the GPU.
+pub(crate) struct Geometry {
+    pub slots: Handle<Mesh>,
+    pub facets: Handle<ShaderBuffer>,
+    pub bounds: Aabb,
+    /// The most slices a texel that there are slots for.
+    pub most: UVec3,
+    /// Slots of each facet.
+    counts: Vec<usize>,
+}
+
+/// The facets of a mesh with texels as thick.
+pub(crate) fn facets(mesh: &Mesh, thickness: f32) -> Result<SurfaceFacets, TexelSurfaceError> {
+    if !(thickness.is_finite() && thickness > 0.0) {
+        return Err(TexelSurfaceError::Thickness(thickness));
+    }
+    Ok(surface(mesh)?.facets(thickness)?)
+}
+
+impl Geometry {
+    /// Of facets, for volumes of which there are so many slices.
+    pub(crate) fn new(
+        facets: &[Facet],
+        most: UVec3,
+        meshes: &mut Assets<Mesh>,
+        buffers: &mut Assets<ShaderBuffer>,
+    ) -> Self {
+        let (counts, most) = count_slots(facets, most);
+        Self {
+            slots: meshes.add(slot_mesh(counts.iter().copied())),
+            facets: buffers.add(facet_buffer(facets)),
+            bounds: bounds(facets),
+            most,
+            counts,
+        }
+    }
+
+    /// Follows facets that have changed.
+    pub(crate) fn renew(
+        &mut self,
+        facets: &[Facet],
+        most: UVec3,
+        meshes: &mut Assets<Mesh>,
+        buffers: &mut Assets<ShaderBuffer>,
+    ) {
+        let (counts, most) = count_slots(facets, most);
+        if counts != self.counts {
+            self.slots = meshes.add(slot_mesh(counts.iter().copied()));
+            self.facets = buffers.add(facet_buffer(facets));
+            self.counts = counts;
+        } else if let Some(mut buffer) = buffers.get_mut(&self.facets) {
+            *buffer = facet_buffer(facets);
+        }
+        self.most = most;
+        self.bounds = bounds(facets);
+    }
+}
+
+/// Slots for each facet, with fewer slices across u and v if there were too many.
+fn count_slots(facets: &[Facet], most: UVec3) -> (Vec<usize>, UVec3) {
+    let mut fewer = most;
+    loop {
+        let counts: Vec<usize> = facets.iter().map(|facet| slots_of(facet, fewer)).collect();
+        let enough = counts.iter().sum::<usize>() <= MAX_SLOTS;
+        if enough || fewer == UVec3::ONE {
+            if fewer != most {
+                warn!(
+                    "a surface of {} facets would need more than {MAX_SLOTS} slices: a texel gets {fewer} instead of \
+                     {most}; lower TexelSettings::most_slices, or let fewer texels lie on a facet",
+                    facets.len()
+                );
+            }
+            return (counts, fewer);
+        }
+        let upright = UVec3::new(fewer.x / 2, fewer.y / 2, fewer.z);
+        fewer = if upright.x.max(upright.y) >= fewer.z.max(1) {
+            upright.max(UVec3::ONE)
+        } else {
+            (fewer / 2).max(UVec3::ONE)
+        };
+    }
+}
+
+fn bounds(facets: &[Facet]) -> Aabb {
+    let corners = facets
+        .iter()
+        .flat_map(|facet| [facet.corners(0.0), facet.corners(1.0)]);
+    let (min, max) = corners
+        .flatten()
+        .fold((Vec3::MAX, Vec3::MIN), |(min, max), corner| {
+            (min.min(corner), max.max(corner))
+        });
+    Aabb::from_min_max(min, max)
+}

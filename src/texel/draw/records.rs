@@ -1,0 +1,37 @@
+//! What the GPU gets of a facet.
+
+use bevy::asset::RenderAssetUsages;
+use bevy::render::storage::ShaderBuffer;
+use bytemuck::{Pod, Zeroable};
+
+use super::super::facet::Facet;
+
+/// A facet, as the shaders have it.
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct FacetRecord {
+    /// Positions of the vertices; w is their u.
+    positions: [[f32; 4]; 3],
+    /// Height vectors; w is v.
+    heights: [[f32; 4]; 3],
+}
+
+impl From<&Facet> for FacetRecord {
+    fn from(facet: &Facet) -> Self {
+        let vertices = [0, 1, 2];
+        Self {
+            positions: vertices.map(|i| facet.positions[i].extend(facet.uvs[i].x).to_array()),
+            heights: vertices.map(|i| facet.heights[i].extend(facet.uvs[i].y).to_array()),
+        }
+    }
+}
+
+/// The buffer of a surface's facets.
+pub(crate) fn facet_buffer(facets: &[Facet]) -> ShaderBuffer {
+    let mut records: Vec<FacetRecord> = facets.iter().map(FacetRecord::from).collect();
+    if records.is_empty() {
+        // Buffers are not empty.
+        records.push(FacetRecord::zeroed());
+    }
+    ShaderBuffer::new(bytemuck::cast_slice(&records), RenderAssetUsages::default())
+}

@@ -1,0 +1,43 @@
+// The main pass: slices lit by the scene.
+
+#import bevy_pbr::{
+    pbr_functions,
+    pbr_types,
+}
+#import bevy_pbr::mesh_bindings::mesh
+#import bevy_verdure::texel::look::{OPAQUE, slice_color, slice_normal}
+#import bevy_verdure::texel::place::{Corner, Varying, place_corner, is_orthographic}
+#import bevy_verdure::texel::types::texels
+
+@vertex
+fn vertex(corner: Corner) -> Varying {
+    return place_corner(corner);
+}
+
+@fragment
+fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    let seen = slice_color(in);
+    let normal = slice_normal(in);
+    if seen.a < OPAQUE {
+        discard;
+    }
+    var input = pbr_types::pbr_input_new();
+    input.material.base_color = vec4(seen.rgb, 1.0);
+    input.material.perceptual_roughness = texels.roughness;
+    input.material.reflectance = vec3(texels.reflectance);
+    input.material.flags = input.material.flags | pbr_types::STANDARD_MATERIAL_FLAGS_FOG_ENABLED_BIT;
+    input.flags = mesh[in.instance_index].flags;
+    input.frag_coord = in.position;
+    // Lit and shadowed where the surface is, above the inside that slices show (§4.1).
+    input.world_position = vec4(in.world_position.xyz + normal * in.inside, 1.0);
+    input.world_normal = normal;
+    input.N = normal;
+    input.is_orthographic = is_orthographic();
+    input.V = pbr_functions::calculate_view(in.world_position, input.is_orthographic);
+    var color = input.material.base_color;
+#ifdef TEXEL_LIT
+    color = pbr_functions::apply_pbr_lighting(input);
+#endif
+    color = pbr_functions::main_pass_post_lighting_processing(input, color);
+    return vec4(color.rgb, 1.0);
+}

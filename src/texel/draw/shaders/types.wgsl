@@ -1,0 +1,37 @@
+#define_import_path bevy_verdure::texel::types
+
+// A surface's facets and a volume's slices, as records.rs and material.rs write them.
+
+// xyz: a vertex, its height vector; w: its u, its v.
+struct FacetRecord {
+    positions: array<vec4<f32>, 3>,
+    heights: array<vec4<f32>, 3>,
+}
+
+struct Texels {
+    // The largest number of slices along u, v and w, powers of two.
+    most: vec3<u32>,
+    by_quality: u32,
+    // Of the volume's box, in metres.
+    lengths: vec3<f32>,
+    depth: f32,
+    // e along u, v and w.
+    thickness: vec3<f32>,
+    pixels: f32,
+    roughness: f32,
+    reflectance: f32,
+}
+
+@group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;
+@group(#{MATERIAL_BIND_GROUP}) @binding(1) var<storage, read> facets: array<FacetRecord>;
+// Slices across u, v and w; the sets of 1, 2, 4 and so on slices, one after the other.
+@group(#{MATERIAL_BIND_GROUP}) @binding(2) var color_across_u: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(3) var color_across_v: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(4) var color_across_w: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(5) var normal_across_u: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(6) var normal_across_v: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(7) var normal_across_w: texture_2d_array<f32>;
+// Repeats along the columns, and not along the rows, which are heights.
+@group(#{MATERIAL_BIND_GROUP}) @binding(8) var upright_sampler: sampler;
+// Repeats along both.
+@group(#{MATERIAL_BIND_GROUP}) @binding(9) var level_sampler: sampler;

@@ -1,0 +1,183 @@
+//! The systems that follow surfaces from frame to frame.
+
+use bevy::camera::primitives::Aabb;
+use bevy::camera::visibility::{NoAutoAabb, RenderLayers};
+use bevy::light::{NotShadowCaster, NotShadowReceiver};
+use bevy::platform::collections::HashSet;
+use bevy::prelude::*;
+use bevy::render::renderer::RenderDevice;
+
+use super::super::asset::TexelVolume;
+use super::component::{TexelSettings, TexelSurface};
+use super::library::{TexelAssets, TexelKeys, TexelLibrary};
+use super::material::TexelMaterial;
+
+/// Marks the child of a [`TexelSurface`] that its slices are drawn by. Made by the plugin; it follows its surface's
+/// [`RenderLayers`], [`NotShadowCaster`] and [`NotShadowReceiver`].
+#[derive(Component, Clone, Copy, Debug, Default, Reflect)]
+#[reflect(Component, Clone, Debug, Default)]
+pub struct TexelSlices;
+
+/// What a surface is drawn with, and by which child.
+#[derive(Component)]
+pub(crate) struct TexelDrawn {
+    keys: TexelKeys,
+    slices: Entity,
+}
+
+/// Layers of a texture array that every device has.
+const LAYERS: u32 = 256;
+
+/// Gives surfaces whose mesh and volume are there what they are drawn with. One whose volume is not there yet keeps what it
+/// has.
+pub(crate) fn attach(
+    mut commands: Commands,
+    mut library: ResMut<TexelLibrary>,
+    mut assets: TexelAssets,
+    device: Option<Res<RenderDevice>>,
+    surfaces: Query<(
+        Entity,
+        &TexelSurface,
+        &TexelSettings,
+        &Mesh3d,
+        Option<&TexelDrawn>,
+    )>,
+    mut slices: Query<
+        (&mut Mesh3d, &mut MeshMaterial3d<TexelMaterial>, &mut Aabb),
+        (With<TexelSlices>, Without<TexelSurface>),
+    >,
+) {
+    let layers = device.map_or(LAYERS, |device| device.limits().max_texture_array_layers);
+    for (entity, surface, settings, mesh, drawn) in &surfaces {
+        let keys = TexelKeys::new(surface, mesh.id(), settings);
+        let Some((geometry, material)) =
+            library.drawn(keys, surface, settings, layers, &mut assets)
+        else {
+            continue;
+        };
+        if let Some(drawn) = drawn
+            && let Ok((mut mesh, mut used, mut bounds)) = slices.get_mut(drawn.slices)
+        {
+            mesh.set_if_neq(Mesh3d(geometry.slots.clone()));
+            used.set_if_neq(MeshMaterial3d(material));
+            bounds.set_if_neq(geometry.bounds);
+            if drawn.keys != keys {
+                let slices = drawn.slices;
+                commands
+                    .entity(entity)
+                    .try_insert(TexelDrawn { keys, slices });
+            }
+            continue;
+        }
+        let slices = commands
+            .spawn((
+                TexelSlices,
+                Mesh3d(geometry.slots.clone()),
+                MeshMaterial3d(material),
+                geometry.bounds,
+                NoAutoAabb,
+                ChildOf(entity),
+            ))
+            .id();
+        commands
+            .entity(entity)
+            .try_insert(TexelDrawn { keys, slices });
+    }
+}
+
+/// Follows meshes and volumes that were edited or reloaded.
+pub(crate) fn follow_assets(
+    mut edited_meshes: MessageReader<AssetEvent<Mesh>>,
+    mut edited_volumes: MessageReader<AssetEvent<TexelVolume>>,
+    mut library: ResMut<TexelLibrary>,
+    mut assets: TexelAssets,
+) {
+    for event in edited_volumes.read() {
+        if let AssetEvent::Modified { id } = event {
+            library.forget_volume(*id);
+        }
+    }
+    let mut seen = HashSet::new();
+    for event in edited_meshes.read() {
+        if let AssetEvent::Modified { id } = event
+            && seen.insert(*id)
+        {
+            library.follow_mesh(*id, &mut assets);
+        }
+    }
+}
+
+/// What of a surface its slices follow.
+type Followed<'w> = (
+    &'w TexelDrawn,
+    Option<&'w RenderLayers>,
+    Has<NotShadowCaster>,
+    Has<NotShadowReceiver>,
+);
+
+/// Shows slices where their surface is shown, and lets them cast and receive shadows as it does.
+pub(crate) fn follow_surfaces(
+    mut commands: Commands,
+    surfaces: Query<Followed>,
+    slices: Query<
+        (
+            Option<&RenderLayers>,
+            Has<NotShadowCaster>,
+            Has<NotShadowReceiver>,
+        ),
+        With<TexelSlices>,
+    >,
+) {
+    for (drawn, layers, casts_none, receives_none) in &surfaces {
+        let Ok((own_layers, own_casts_none, own_receives_none)) = slices.get(drawn.slices) else {
+            continue;
+        };
+        let mut own = commands.entity(drawn.slices);
+        if layers != own_layers {
+            match layers {
+                Some(layers) => own.try_insert(layers.clone()),
+                None => own.try_remove::<RenderLayers>(),
+            };
+        }
+        if casts_none != own_casts_none {
+            if casts_none {
+                own.try_insert(NotShadowCaster);
+            } else {
+                own.try_remove::<NotShadowCaster>();
+            }
+        }
+        if receives_none != own_receives_none {
+            if receives_none {
+                own.try_insert(NotShadowReceiver);
+            } else {
+                own.try_remove::<NotShadowReceiver>();
+            }
+        }
+    }
+}
+
+/// Stops drawing texels on an entity that is no surface any more.
+pub(crate) fn uproot(
+    removed: On<Remove, TexelSurface>,
+    drawn: Query<&TexelDrawn>,
+    mut commands: Commands,
+) {
+    if let Ok(drawn) = drawn.get(removed.entity) {
+        commands.entity(drawn.slices).try_despawn();
+        if let Ok(mut entity) = commands.get_entity(removed.entity) {
+            entity.try_remove::<TexelDrawn>();
+        }
+    }
+}
+
+/// Forgets what no surface uses any more.
+pub(crate) fn forget(
+    mut removed: RemovedComponents<TexelDrawn>,
+    mut library: ResMut<TexelLibrary>,
+    changed: Query<(), Changed<TexelDrawn>>,
+    drawn: Query<&TexelDrawn>,
+) {
+    if removed.read().count() > 0 || !changed.is_empty() {
+        library.keep(&drawn.iter().map(|drawn| drawn.keys).collect());
+    }
+}
