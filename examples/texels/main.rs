@@ -12,6 +12,8 @@ mod patterns;
 mod scene;
 mod surfaces;
 
+use bevy::core_pipeline::prepass::DepthPrepass;
+use bevy::light::NotShadowCaster;
 use bevy::prelude::*;
 use bevy_verdure::lab::CommonArgs;
 use bevy_verdure::prelude::*;
@@ -40,6 +42,18 @@ struct Args {
     /// The most slices a texel.
     #[arg(long, default_value_t = TexelSettings::default().most_slices)]
     most: u32,
+    /// Let texels cast no shadows.
+    #[arg(long)]
+    unshadowed: bool,
+    /// Show the volume's colours as they are.
+    #[arg(long)]
+    unlit: bool,
+    /// Draw a depth prepass first, so that no pixel is lit twice.
+    #[arg(long)]
+    prepass: bool,
+    /// Turn multisampling off.
+    #[arg(long)]
+    plain: bool,
     /// Turns of the camera a minute.
     #[arg(long, default_value_t = 1.0, allow_hyphen_values = true)]
     turns: f32,
@@ -61,13 +75,15 @@ fn run(args: &Args) -> Result<(), String> {
             ..default()
         },
         most_slices: args.most,
+        lit: !args.unlit,
         ..default()
     };
     let volume = scene.volume()?;
     let mut stage = scene.stage();
     stage.eye = args.eye.unwrap_or(stage.eye);
     stage.at = args.at.unwrap_or(stage.at);
-    let turns = args.turns;
+    let (turns, unshadowed) = (args.turns, args.unshadowed);
+    let (prepass, plain) = (args.prepass, args.plain);
     let title = format!("texels_{}", scene.name());
     common::run(&title, &args.common, move |app| {
         app.add_plugins(stage)
@@ -92,6 +108,9 @@ fn run(args: &Args) -> Result<(), String> {
                             settings,
                             surface.place,
                         ));
+                        if unshadowed {
+                            entity.insert(NotShadowCaster);
+                        }
                         if let Some(color) = surface.color {
                             entity.insert(MeshMaterial3d(materials.add(StandardMaterial {
                                 base_color: color,
@@ -99,6 +118,18 @@ fn run(args: &Args) -> Result<(), String> {
                                 ..default()
                             })));
                         }
+                    }
+                },
+            )
+            .add_systems(
+                PostStartup,
+                move |mut commands: Commands, camera: Single<Entity, With<common::MainCamera>>| {
+                    let mut camera = commands.entity(*camera);
+                    if prepass {
+                        camera.insert(DepthPrepass);
+                    }
+                    if plain {
+                        camera.insert(Msaa::Off);
                     }
                 },
             );

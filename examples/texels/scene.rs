@@ -128,11 +128,14 @@ impl Scene {
                     ),
                 ]
             }
-            Self::Sphere => vec![covered(
-                surfaces::sphere(1.0),
-                0.2,
-                Transform::from_xyz(0.0, 1.3, 0.0),
-            )],
+            Self::Sphere => vec![Covered {
+                color: Some(Color::srgb(0.2, 0.16, 0.12)),
+                ..covered(
+                    surfaces::sphere(1.0),
+                    0.2,
+                    Transform::from_xyz(0.0, 1.3, 0.0),
+                )
+            }],
             Self::Plane => vec![covered(
                 surfaces::jittered(10, 10, Vec2::splat(8.0)),
                 0.25,

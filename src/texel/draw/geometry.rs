@@ -7,6 +7,7 @@ use bevy::math::{UVec3, Vec3};
 use bevy::mesh::Mesh;
 use bevy::render::storage::ShaderBuffer;
 
+use super::super::axis::SliceAxis;
 use super::super::facet::{Facet, SurfaceFacets};
 use super::records::facet_buffer;
 use super::slots::{MAX_SLOTS, slot_mesh, slots_of};
@@ -14,13 +15,14 @@ use super::surface_mesh::{TexelSurfaceError, surface};
 
 /// The facets of a mesh, on the GPU.
 pub(crate) struct Geometry {
-    pub slots: Handle<Mesh>,
+    /// Slots across u, v and w.
+    pub slots: [Handle<Mesh>; 3],
     pub facets: Handle<ShaderBuffer>,
     pub bounds: Aabb,
     /// The most slices a texel that there are slots for.
     pub most: UVec3,
-    /// Slots of each facet.
-    counts: Vec<usize>,
+    /// Slots of each facet across u, v and w.
+    counts: [Vec<usize>; 3],
 }
 
 /// The facets of a mesh with texels as thick.
@@ -41,7 +43,7 @@ impl Geometry {
     ) -> Self {
         let (counts, most) = count_slots(facets, most);
         Self {
-            slots: meshes.add(slot_mesh(counts.iter().copied())),
+            slots: add_slots(&counts, meshes),
             facets: buffers.add(facet_buffer(facets)),
             bounds: bounds(facets),
             most,
@@ -59,7 +61,7 @@ impl Geometry {
     ) {
         let (counts, most) = count_slots(facets, most);
         if counts != self.counts {
-            self.slots = meshes.add(slot_mesh(counts.iter().copied()));
+            self.slots = add_slots(&counts, meshes);
             self.facets = buffers.add(facet_buffer(facets));
             self.counts = counts;
         } else if let Some(mut buffer) = buffers.get_mut(&self.facets) {
@@ -70,29 +72,36 @@ impl Geometry {
     }
 }
 
-/// Slots for each facet, with fewer slices across u and v if there were too many.
-fn count_slots(facets: &[Facet], most: UVec3) -> (Vec<usize>, UVec3) {
+fn add_slots(counts: &[Vec<usize>; 3], meshes: &mut Assets<Mesh>) -> [Handle<Mesh>; 3] {
+    counts
+        .each_ref()
+        .map(|counts| meshes.add(slot_mesh(counts.iter().copied())))
+}
+
+/// Slots for each facet, and the most slices a texel; fewer than `most` if there were too many slots.
+fn count_slots(facets: &[Facet], most: UVec3) -> ([Vec<usize>; 3], UVec3) {
     let mut fewer = most;
-    loop {
-        let counts: Vec<usize> = facets.iter().map(|facet| slots_of(facet, fewer)).collect();
-        let enough = counts.iter().sum::<usize>() <= MAX_SLOTS;
-        if enough || fewer == UVec3::ONE {
-            if fewer != most {
-                warn!(
-                    "a surface of {} facets would need more than {MAX_SLOTS} slices: a texel gets {fewer} instead of \
-                     {most}; lower TexelSettings::most_slices, or let fewer texels lie on a facet",
-                    facets.len()
-                );
+    let counts = SliceAxis::ALL.map(|axis| {
+        loop {
+            let most = &mut fewer[axis.index()];
+            let counts: Vec<usize> = facets
+                .iter()
+                .map(|facet| slots_of(facet, axis, *most))
+                .collect();
+            if *most == 1 || counts.iter().sum::<usize>() <= MAX_SLOTS {
+                return counts;
             }
-            return (counts, fewer);
+            *most /= 2;
         }
-        let upright = UVec3::new(fewer.x / 2, fewer.y / 2, fewer.z);
-        fewer = if upright.x.max(upright.y) >= fewer.z.max(1) {
-            upright.max(UVec3::ONE)
-        } else {
-            (fewer / 2).max(UVec3::ONE)
-        };
+    });
+    if fewer != most {
+        warn!(
+            "a surface of {} facets would need more than {MAX_SLOTS} slices across an axis: a texel gets {fewer} instead \
+             of {most}; lower TexelSettings::most_slices, or let fewer texels lie on a facet",
+            facets.len()
+        );
     }
+    (counts, fewer)
 }
 
 fn bounds(facets: &[Facet]) -> Aabb {

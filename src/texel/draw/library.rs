@@ -8,6 +8,7 @@ use bevy::prelude::*;
 use bevy::render::storage::ShaderBuffer;
 
 use super::super::asset::TexelVolume;
+use super::super::axis::SliceAxis;
 use super::super::choose::VolumeMeasure;
 use super::super::slice_sets::SliceSets;
 use super::component::{TexelSettings, TexelSurface};
@@ -78,7 +79,7 @@ pub(crate) struct TexelLibrary {
     volumes: HashMap<VolumeKey, SharedVolume>,
     /// None for a mesh that carries no texels, which has been told.
     geometries: HashMap<GeometryKey, Option<Geometry>>,
-    materials: HashMap<TexelKeys, Handle<TexelMaterial>>,
+    materials: HashMap<TexelKeys, [Handle<TexelMaterial>; 3]>,
 }
 
 /// The assets that surfaces are turned into.
@@ -92,7 +93,7 @@ pub(crate) struct TexelAssets<'w> {
 }
 
 impl TexelLibrary {
-    /// What a surface is drawn with: a mesh of slots, a material and bounds. None while its mesh or volume is not there, or
+    /// What a surface is drawn with: slots, bounds, and materials across u, v and w. None while its mesh or volume is not there, or
     /// if the mesh carries no texels.
     pub(crate) fn drawn(
         &mut self,
@@ -101,7 +102,7 @@ impl TexelLibrary {
         settings: &TexelSettings,
         most_layers: u32,
         assets: &mut TexelAssets,
-    ) -> Option<(&Geometry, Handle<TexelMaterial>)> {
+    ) -> Option<(&Geometry, [Handle<TexelMaterial>; 3])> {
         let volume = self.volume(keys.geometry.volume, most_layers, assets)?;
         let measure = volume.measure;
         let images = volume.images.clone();
@@ -118,29 +119,24 @@ impl TexelLibrary {
                     .as_ref()?
             }
         };
-        let material = self.materials.entry(keys).or_insert_with(|| {
+        let materials = self.materials.entry(keys).or_insert_with(|| {
             let measure = VolumeMeasure {
                 most: geometry.most,
                 ..measure
             };
-            let [
-                [color_u, normal_u],
-                [color_v, normal_v],
-                [color_w, normal_w],
-            ] = images;
-            assets.materials.add(TexelMaterial {
-                texels: TexelsUniform::new(&measure, settings),
-                facets: geometry.facets.clone(),
-                color_across_u: color_u,
-                color_across_v: color_v,
-                color_across_w: color_w,
-                normal_across_u: normal_u,
-                normal_across_v: normal_v,
-                normal_across_w: normal_w,
-                lit: settings.lit,
+            SliceAxis::ALL.map(|axis| {
+                let [color, normal] = images[axis.index()].clone();
+                assets.materials.add(TexelMaterial {
+                    texels: TexelsUniform::new(&measure, settings),
+                    facets: geometry.facets.clone(),
+                    color,
+                    normal,
+                    axis,
+                    lit: settings.lit,
+                })
             })
         });
-        Some((geometry, material.clone()))
+        Some((geometry, materials.clone()))
     }
 
     fn volume(

@@ -11,8 +11,9 @@ use bevy::render::render_resource::{
     AsBindGroup, RenderPipelineDescriptor, ShaderType, SpecializedMeshPipelineError,
 };
 use bevy::render::storage::ShaderBuffer;
-use bevy::shader::ShaderRef;
+use bevy::shader::{ShaderDefVal, ShaderRef};
 
+use super::super::axis::SliceAxis;
 use super::super::choose::{DirectionRule, VolumeMeasure};
 use super::component::TexelSettings;
 use super::slots::ATTRIBUTE_SLOT;
@@ -46,7 +47,7 @@ impl TexelsUniform {
     }
 }
 
-/// The material of the slices of one surface. Made by the plugin.
+/// The material of the slices of a surface across one axis. Made by the plugin.
 #[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
 #[bind_group_data(TexelKey)]
 pub struct TexelMaterial {
@@ -55,19 +56,11 @@ pub struct TexelMaterial {
     #[storage(1, read_only)]
     pub(crate) facets: Handle<ShaderBuffer>,
     #[texture(2, dimension = "2d_array")]
-    #[sampler(8)]
-    pub(crate) color_across_u: Handle<Image>,
+    #[sampler(4)]
+    pub(crate) color: Handle<Image>,
     #[texture(3, dimension = "2d_array")]
-    pub(crate) color_across_v: Handle<Image>,
-    #[texture(4, dimension = "2d_array")]
-    #[sampler(9)]
-    pub(crate) color_across_w: Handle<Image>,
-    #[texture(5, dimension = "2d_array")]
-    pub(crate) normal_across_u: Handle<Image>,
-    #[texture(6, dimension = "2d_array")]
-    pub(crate) normal_across_v: Handle<Image>,
-    #[texture(7, dimension = "2d_array")]
-    pub(crate) normal_across_w: Handle<Image>,
+    pub(crate) normal: Handle<Image>,
+    pub(crate) axis: SliceAxis,
     pub(crate) lit: bool,
 }
 
@@ -75,12 +68,16 @@ pub struct TexelMaterial {
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 #[repr(C)]
 pub struct TexelKey {
+    axis: u8,
     lit: bool,
 }
 
 impl From<&TexelMaterial> for TexelKey {
     fn from(material: &TexelMaterial) -> Self {
-        Self { lit: material.lit }
+        Self {
+            axis: material.axis as u8,
+            lit: material.lit,
+        }
     }
 }
 
@@ -132,6 +129,11 @@ impl Material for TexelMaterial {
             .get_layout(&[ATTRIBUTE_SLOT.at_shader_location(0)])?;
         descriptor.vertex.buffers = vec![corners];
         descriptor.primitive.cull_mode = None;
+        let axis = ShaderDefVal::UInt("TEXEL_AXIS".into(), key.bind_group_data.axis.into());
+        descriptor.vertex.shader_defs.push(axis.clone());
+        if let Some(fragment) = &mut descriptor.fragment {
+            fragment.shader_defs.push(axis);
+        }
         let sun = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
         for (set, def) in [
             (key.bind_group_data.lit, "TEXEL_LIT"),

@@ -1,11 +1,10 @@
 //! The mesh of a surface's slices: *slots*, quads that only say which facet they are on, and which slice of it they
 //! may become.
 //!
-//! How many slices a facet shows, and in what direction, depends on the view, and the vertex shader finds it out for
+//! There is a mesh for each axis. How many slices a facet shows, and in what direction, depends on the view, and the vertex shader finds it out for
 //! each. So each facet has as many slots as it may ever need; those that a view does not need collapse to a point.
 
 use bevy::asset::RenderAssetUsages;
-use bevy::math::UVec3;
 use bevy::mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexFormat};
 
 use super::super::axis::SliceAxis;
@@ -18,18 +17,16 @@ pub(crate) const ATTRIBUTE_SLOT: MeshVertexAttribute = MeshVertexAttribute::new(
     VertexFormat::Uint32x2,
 );
 
-/// The most slots of a surface. A mesh of them takes 56 bytes each.
+/// The most slots of a surface across each axis. A mesh of them takes 56 bytes each.
 pub const MAX_SLOTS: usize = 1 << 21;
 
-/// How many slots a facet needs for at most so many slices a texel along u, v and w.
-pub(crate) fn slots_of(facet: &Facet, most: UVec3) -> usize {
-    let along = |axis: SliceAxis| {
-        // Fewer slices a texel are never more on a facet, but for what rounding adds: half as many lie between those
-        // of twice as many, so that a facet that meets n of them meets at least n − 1 of the others.
-        let range = slice_range(facet.uvs, axis, most[axis.index()]);
-        range.end.abs_diff(range.start) as usize + usize::from(axis != SliceAxis::W)
-    };
-    SliceAxis::ALL.into_iter().map(along).max().unwrap_or(0)
+/// How many slots a facet needs for at most so many slices a texel across an axis.
+///
+/// Fewer slices a texel are no more on a facet, but for what rounding adds: an interval of length ℓ meets at most ⌈ℓN⌉ of N
+/// slices a texel.
+pub(crate) fn slots_of(facet: &Facet, axis: SliceAxis, most: u32) -> usize {
+    let range = slice_range(facet.uvs, axis, most);
+    range.end.abs_diff(range.start) as usize + usize::from(axis != SliceAxis::W)
 }
 
 /// The mesh for facets that need so many slots each.

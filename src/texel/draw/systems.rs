@@ -8,21 +8,24 @@ use bevy::prelude::*;
 use bevy::render::renderer::RenderDevice;
 
 use super::super::asset::TexelVolume;
+use super::super::axis::SliceAxis;
 use super::component::{TexelSettings, TexelSurface};
 use super::library::{TexelAssets, TexelKeys, TexelLibrary};
 use super::material::TexelMaterial;
 
-/// Marks the child of a [`TexelSurface`] that its slices are drawn by. Made by the plugin; it follows its surface's
+/// Marks the children of a [`TexelSurface`] that its slices are drawn by, one for each axis. Made by the plugin; they
+/// follow their surface's
 /// [`RenderLayers`], [`NotShadowCaster`] and [`NotShadowReceiver`].
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
 pub struct TexelSlices;
 
-/// What a surface is drawn with, and by which child.
+/// What a surface is drawn with, and by which children.
 #[derive(Component)]
 pub(crate) struct TexelDrawn {
     keys: TexelKeys,
-    slices: Entity,
+    /// Those across u, v and w.
+    slices: [Entity; 3],
 }
 
 /// Layers of a texture array that every device has.
@@ -50,38 +53,40 @@ pub(crate) fn attach(
     let layers = device.map_or(LAYERS, |device| device.limits().max_texture_array_layers);
     for (entity, surface, settings, mesh, drawn) in &surfaces {
         let keys = TexelKeys::new(surface, mesh.id(), settings);
-        let Some((geometry, material)) =
+        let Some((geometry, materials)) =
             library.drawn(keys, surface, settings, layers, &mut assets)
         else {
             continue;
         };
-        if let Some(drawn) = drawn
-            && let Ok((mut mesh, mut used, mut bounds)) = slices.get_mut(drawn.slices)
-        {
-            mesh.set_if_neq(Mesh3d(geometry.slots.clone()));
-            used.set_if_neq(MeshMaterial3d(material));
-            bounds.set_if_neq(geometry.bounds);
-            if drawn.keys != keys {
-                let slices = drawn.slices;
-                commands
-                    .entity(entity)
-                    .try_insert(TexelDrawn { keys, slices });
-            }
+        let Some(drawn) = drawn else {
+            let slices = SliceAxis::ALL.map(SliceAxis::index).map(|axis| {
+                let slices = (
+                    TexelSlices,
+                    Mesh3d(geometry.slots[axis].clone()),
+                    MeshMaterial3d(materials[axis].clone()),
+                    geometry.bounds,
+                    NoAutoAabb,
+                    ChildOf(entity),
+                );
+                commands.spawn(slices).id()
+            });
+            let drawn = TexelDrawn { keys, slices };
+            commands.entity(entity).try_insert(drawn);
             continue;
+        };
+        for ((child, slots), material) in drawn.slices.iter().zip(&geometry.slots).zip(materials) {
+            if let Ok((mut mesh, mut used, mut bounds)) = slices.get_mut(*child) {
+                mesh.set_if_neq(Mesh3d(slots.clone()));
+                used.set_if_neq(MeshMaterial3d(material));
+                bounds.set_if_neq(geometry.bounds);
+            }
         }
-        let slices = commands
-            .spawn((
-                TexelSlices,
-                Mesh3d(geometry.slots.clone()),
-                MeshMaterial3d(material),
-                geometry.bounds,
-                NoAutoAabb,
-                ChildOf(entity),
-            ))
-            .id();
-        commands
-            .entity(entity)
-            .try_insert(TexelDrawn { keys, slices });
+        if drawn.keys != keys {
+            let slices = drawn.slices;
+            commands
+                .entity(entity)
+                .try_insert(TexelDrawn { keys, slices });
+        }
     }
 }
 
@@ -129,27 +134,25 @@ pub(crate) fn follow_surfaces(
     >,
 ) {
     for (drawn, layers, casts_none, receives_none) in &surfaces {
-        let Ok((own_layers, own_casts_none, own_receives_none)) = slices.get(drawn.slices) else {
-            continue;
-        };
-        let mut own = commands.entity(drawn.slices);
-        if layers != own_layers {
-            match layers {
-                Some(layers) => own.try_insert(layers.clone()),
-                None => own.try_remove::<RenderLayers>(),
+        for &child in &drawn.slices {
+            let Ok((own_layers, own_casts_none, own_receives_none)) = slices.get(child) else {
+                continue;
             };
-        }
-        if casts_none != own_casts_none {
-            if casts_none {
+            let mut own = commands.entity(child);
+            if layers != own_layers {
+                match layers {
+                    Some(layers) => own.try_insert(layers.clone()),
+                    None => own.try_remove::<RenderLayers>(),
+                };
+            }
+            if casts_none && !own_casts_none {
                 own.try_insert(NotShadowCaster);
-            } else {
+            } else if own_casts_none && !casts_none {
                 own.try_remove::<NotShadowCaster>();
             }
-        }
-        if receives_none != own_receives_none {
-            if receives_none {
+            if receives_none && !own_receives_none {
                 own.try_insert(NotShadowReceiver);
-            } else {
+            } else if own_receives_none && !receives_none {
                 own.try_remove::<NotShadowReceiver>();
             }
         }
@@ -163,7 +166,9 @@ pub(crate) fn uproot(
     mut commands: Commands,
 ) {
     if let Ok(drawn) = drawn.get(removed.entity) {
-        commands.entity(drawn.slices).try_despawn();
+        for slices in drawn.slices {
+            commands.entity(slices).try_despawn();
+        }
         if let Ok(mut entity) = commands.get_entity(removed.entity) {
             entity.try_remove::<TexelDrawn>();
         }

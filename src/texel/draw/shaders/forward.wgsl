@@ -5,7 +5,7 @@
     pbr_types,
 }
 #import bevy_pbr::mesh_bindings::mesh
-#import bevy_verdure::texel::look::{OPAQUE, slice_color, slice_normal}
+#import bevy_verdure::texel::look::{is_there, slice_color, slice_normal_and_alpha, world_normal}
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::texel::types::texels
 
@@ -16,13 +16,14 @@ fn vertex(corner: Corner) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    let baked = slice_normal_and_alpha(in);
     let seen = slice_color(in);
-    let normal = slice_normal(in);
-    if seen.a < OPAQUE {
+    if !is_there(baked.a) {
         discard;
     }
+    let normal = world_normal(in, baked.xyz);
     var input = pbr_types::pbr_input_new();
-    input.material.base_color = vec4(seen.rgb, 1.0);
+    input.material.base_color = vec4(seen, 1.0);
     input.material.perceptual_roughness = texels.roughness;
     input.material.reflectance = vec3(texels.reflectance);
     input.material.flags = input.material.flags | pbr_types::STANDARD_MATERIAL_FLAGS_FOG_ENABLED_BIT;

@@ -3,47 +3,24 @@
 // The fragment stage of all passes: what a slice looks like at a place.
 
 #import bevy_verdure::texel::place::Varying
-#import bevy_verdure::texel::types::{
-    color_across_u, color_across_v, color_across_w, normal_across_u, normal_across_v, normal_across_w,
-    level_sampler, upright_sampler,
+#import bevy_verdure::texel::types::{color_texture, normal_texture, slice_sampler}
+
+// The volume's normal, and alpha, which colours have too, but here needs no conversion from sRGB.
+fn slice_normal_and_alpha(in: Varying) -> vec4<f32> {
+    return textureSample(normal_texture, slice_sampler, in.uv, in.layer);
 }
 
-// Pixels are there or not: what filtering puts between is there from here on.
-const OPAQUE: f32 = 0.5;
-
-fn slice_color(in: Varying) -> vec4<f32> {
-    // Gradients are taken before the texture is chosen.
-    let dx = dpdx(in.uv);
-    let dy = dpdy(in.uv);
-    switch in.axis {
-        case 0u: {
-            return textureSampleGrad(color_across_u, upright_sampler, in.uv, in.layer, dx, dy);
-        }
-        case 1u: {
-            return textureSampleGrad(color_across_v, upright_sampler, in.uv, in.layer, dx, dy);
-        }
-        default: {
-            return textureSampleGrad(color_across_w, level_sampler, in.uv, in.layer, dx, dy);
-        }
-    }
+fn slice_color(in: Varying) -> vec3<f32> {
+    return textureSample(color_texture, slice_sampler, in.uv, in.layer).rgb;
 }
 
-// The unit normal in world space.
-fn slice_normal(in: Varying) -> vec3<f32> {
-    let dx = dpdx(in.uv);
-    let dy = dpdy(in.uv);
-    var baked: vec3<f32>;
-    switch in.axis {
-        case 0u: {
-            baked = textureSampleGrad(normal_across_u, upright_sampler, in.uv, in.layer, dx, dy).xyz;
-        }
-        case 1u: {
-            baked = textureSampleGrad(normal_across_v, upright_sampler, in.uv, in.layer, dx, dy).xyz;
-        }
-        default: {
-            baked = textureSampleGrad(normal_across_w, level_sampler, in.uv, in.layer, dx, dy).xyz;
-        }
-    }
+// Pixels are there or not: what filtering puts between is there from one half on.
+fn is_there(alpha: f32) -> bool {
+    return alpha >= 0.5;
+}
+
+// The unit normal in world space, of one of the volume as its texture has it.
+fn world_normal(in: Varying, baked: vec3<f32>) -> vec3<f32> {
     let n = baked * 2.0 - 1.0;
     let turned = in.normal_from_u * n.x + in.normal_from_v * n.y + in.normal_from_w * n.z;
     // Opposite normals may cancel out.

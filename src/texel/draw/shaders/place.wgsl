@@ -8,6 +8,9 @@
 #import bevy_verdure::texel::facet::{Facet, facet_point, facet_uv, normal_transform, slice_line_end, slice_position, slice_range, texel_frame}
 #import bevy_verdure::texel::types::{facets, texels}
 
+// The slices of each axis are a draw of their own.
+const AXIS: u32 = #{TEXEL_AXIS}u;
+
 struct Corner {
     @builtin(instance_index) instance_index: u32,
     // The facet; the slot on it times four, plus the corner.
@@ -19,16 +22,15 @@ struct Varying {
     @location(0) world_position: vec4<f32>,
     // Columns and rows of the slice, from 0 to 1 for one texel.
     @location(1) uv: vec2<f32>,
-    @location(2) @interpolate(flat) axis: u32,
-    @location(3) @interpolate(flat) layer: u32,
-    @location(4) @interpolate(flat) instance_index: u32,
+    @location(2) @interpolate(flat) layer: u32,
+    @location(3) @interpolate(flat) instance_index: u32,
     // Columns of what turns the volume's normals to world space.
-    @location(5) normal_from_u: vec3<f32>,
-    @location(6) normal_from_v: vec3<f32>,
-    @location(7) normal_from_w: vec3<f32>,
-    @location(8) local_position: vec3<f32>,
+    @location(4) normal_from_u: vec3<f32>,
+    @location(5) normal_from_v: vec3<f32>,
+    @location(6) normal_from_w: vec3<f32>,
+    @location(7) local_position: vec3<f32>,
     // How far, in metres, the surface may be above the place inside of it that is seen.
-    @location(9) @interpolate(flat) inside: f32,
+    @location(8) @interpolate(flat) inside: f32,
 }
 
 fn is_orthographic() -> bool {
@@ -86,11 +88,11 @@ fn place_corner(in: Corner) -> Varying {
         texel_view(),
         TexelQuality(texels.by_quality != 0u, texels.depth, texels.pixels),
     );
-    if !choice.drawn {
+    if !choice.drawn || choice.axis != AXIS {
         return out;
     }
     let count = 1u << choice.exponent;
-    let range = slice_range(facet.uvs, choice.axis, count);
+    let range = slice_range(facet.uvs, AXIS, count);
     let slot = i32(in.corner.y >> 2u);
     if slot >= range.y {
         return out;
@@ -100,19 +102,18 @@ fn place_corner(in: Corner) -> Varying {
     let corner = in.corner.y & 3u;
     var b: vec3<f32>;
     var w: f32;
-    if choice.axis == 2u {
+    if AXIS == 2u {
         // A triangle: the fourth corner is the third.
         b = vec3(f32(corner == 0u), f32(corner == 1u), f32(corner >= 2u));
         w = slice_position(slice, count);
     } else {
         // A line, from the surface to the top.
         let position = slice_position(slice, count);
-        b = slice_line_end(facet.uvs, choice.axis, position, corner == 1u || corner == 2u);
+        b = slice_line_end(facet.uvs, AXIS, position, corner == 1u || corner == 2u);
         w = f32(corner >= 2u);
     }
     let uv = facet_uv(facet, b);
-    out.uv = vec2(select(uv.x, uv.y, choice.axis == 0u), select(w, uv.y, choice.axis == 2u));
-    out.axis = choice.axis;
+    out.uv = vec2(select(uv.x, uv.y, AXIS == 0u), select(w, uv.y, AXIS == 2u));
     // Light sees slices too: those of merged layers stand out by up to half their distance.
     out.inside = choice.inside + choice.depth;
     // Copies of the texture show the same slices; counts are powers of two.

@@ -2,7 +2,7 @@
 
 #import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
 #import bevy_pbr::mesh_view_bindings::view
-#import bevy_verdure::texel::look::{OPAQUE, slice_color, slice_normal}
+#import bevy_verdure::texel::look::{is_there, slice_normal_and_alpha, world_normal}
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner}
 
 @vertex
@@ -26,14 +26,13 @@ struct Output {
 
 @fragment
 fn fragment(in: Varying) -> Output {
-    let seen = slice_color(in);
-    let normal = slice_normal(in);
-    if seen.a < OPAQUE {
+    let baked = slice_normal_and_alpha(in);
+    if !is_there(baked.a) {
         discard;
     }
     var out: Output;
 #ifdef NORMAL_PREPASS
-    out.normal = vec4(normal * 0.5 + vec3(0.5), 1.0);
+    out.normal = vec4(world_normal(in, baked.xyz) * 0.5 + vec3(0.5), 1.0);
 #endif
 #ifdef MOTION_VECTOR_PREPASS
     let before = mesh_functions::get_previous_world_from_local(in.instance_index) * vec4(in.local_position, 1.0);
@@ -53,7 +52,7 @@ fn fragment(in: Varying) -> Output {
 
 @fragment
 fn fragment(in: Varying) {
-    if slice_color(in).a < OPAQUE {
+    if !is_there(slice_normal_and_alpha(in).a) {
         discard;
     }
 }

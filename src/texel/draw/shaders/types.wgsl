@@ -24,14 +24,8 @@ struct Texels {
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;
 @group(#{MATERIAL_BIND_GROUP}) @binding(1) var<storage, read> facets: array<FacetRecord>;
-// Slices across u, v and w; the sets of 1, 2, 4 and so on slices, one after the other.
-@group(#{MATERIAL_BIND_GROUP}) @binding(2) var color_across_u: texture_2d_array<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(3) var color_across_v: texture_2d_array<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(4) var color_across_w: texture_2d_array<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(5) var normal_across_u: texture_2d_array<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(6) var normal_across_v: texture_2d_array<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(7) var normal_across_w: texture_2d_array<f32>;
-// Repeats along the columns, and not along the rows, which are heights.
-@group(#{MATERIAL_BIND_GROUP}) @binding(8) var upright_sampler: sampler;
-// Repeats along both.
-@group(#{MATERIAL_BIND_GROUP}) @binding(9) var level_sampler: sampler;
+// Slices across one axis; the sets of 1, 2, 4 and so on slices, one after the other.
+@group(#{MATERIAL_BIND_GROUP}) @binding(2) var color_texture: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(3) var normal_texture: texture_2d_array<f32>;
+// Repeats along u and v, and not along w.
+@group(#{MATERIAL_BIND_GROUP}) @binding(4) var slice_sampler: sampler;
