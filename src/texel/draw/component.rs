@@ -63,6 +63,8 @@ impl Default for TexelSurface {
 pub struct TexelSettings {
     /// What may be seen of slices; decides how many are drawn.
     pub quality: TexelQuality,
+    /// The same for the views of lights, whose pixels are those of a shadow map. Its `direction` is not used.
+    pub shadows: TexelQuality,
     /// The most slices a texel in any direction, rounded down to a power of two. Memory, and the slots that are kept
     /// ready for slices on each facet, grow with it.
     pub most_slices: u32,
@@ -78,6 +80,12 @@ impl Default for TexelSettings {
     fn default() -> Self {
         Self {
             quality: TexelQuality::default(),
+            // No gaps, and no more: of what casts a shadow nobody sees the inside.
+            shadows: TexelQuality {
+                depth: 1.0,
+                pixels: 2.0,
+                ..Default::default()
+            },
             most_slices: 256,
             lit: true,
             roughness: 0.8,

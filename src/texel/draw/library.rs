@@ -35,7 +35,7 @@ pub(crate) struct GeometryKey {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct TexelKeys {
     pub geometry: GeometryKey,
-    settings: [u32; 6],
+    settings: [u32; 8],
 }
 
 impl TexelKeys {
@@ -58,6 +58,8 @@ impl TexelKeys {
                 quality.direction as u32,
                 quality.depth.to_bits(),
                 quality.pixels.to_bits(),
+                settings.shadows.depth.to_bits(),
+                settings.shadows.pixels.to_bits(),
                 settings.lit.into(),
                 settings.roughness.to_bits(),
                 settings.reflectance.to_bits(),

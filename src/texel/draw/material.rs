@@ -29,6 +29,8 @@ pub(crate) struct TexelsUniform {
     pixels: f32,
     roughness: f32,
     reflectance: f32,
+    shadow_depth: f32,
+    shadow_pixels: f32,
 }
 
 impl TexelsUniform {
@@ -43,6 +45,8 @@ impl TexelsUniform {
             pixels: quality.pixels,
             roughness: settings.roughness,
             reflectance: settings.reflectance,
+            shadow_depth: settings.shadows.depth,
+            shadow_pixels: settings.shadows.pixels,
         }
     }
 }

@@ -76,6 +76,15 @@ fn texel_view() -> TexelView {
     );
 }
 
+fn texel_quality() -> TexelQuality {
+    let light = is_light();
+    return TexelQuality(
+        texels.by_quality != 0u,
+        select(texels.depth, texels.shadow_depth, light),
+        select(texels.pixels, texels.shadow_pixels, light),
+    );
+}
+
 fn place_corner(in: Corner) -> Varying {
     var out: Varying;
     // What is not drawn collapses to a point outside the view.
@@ -86,7 +95,7 @@ fn place_corner(in: Corner) -> Varying {
         facet,
         VolumeMeasure(texels.most, texels.lengths, texels.thickness),
         texel_view(),
-        TexelQuality(texels.by_quality != 0u, texels.depth, texels.pixels),
+        texel_quality(),
     );
     if !choice.drawn || choice.axis != AXIS {
         return out;

@@ -20,6 +20,9 @@ struct Texels {
     pixels: f32,
     roughness: f32,
     reflectance: f32,
+    // Depth and pixels for the views of lights.
+    shadow_depth: f32,
+    shadow_pixels: f32,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;
