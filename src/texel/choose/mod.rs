@@ -101,7 +101,9 @@ pub enum Choice {
     },
 }
 
-/// Chooses for one facet, at its centre: deformations are taken to be small.
+/// Chooses for one facet: the direction at its centre, for deformations are taken to be small, and the number of slices by
+/// the corner of the prism that is seen at the largest angle from them. (The paper takes the angle at the centre too, which
+/// serves facets that are small on screen; right below the eye it would show a large one by a single slice.)
 ///
 /// Facets that fail their [`check`](Facet::check) are left out.
 pub fn choose(
@@ -153,7 +155,9 @@ pub fn choose(
     }
     let i = choose_direction(c, step);
     let axis = SliceAxis::ALL[i];
-    let for_depth = slices_for_depth(l[i], tan_view_angle(c[i]), quality.depth * e[i]);
+    let (normal, _) = frame.normal_and_length(axis);
+    let least = least_cosine(facet, normal, view, c[i]);
+    let for_depth = slices_for_depth(l[i], tan_view_angle(least), quality.depth * e[i]);
     // The nearest that the facet can be, so that no part of it is drawn too coarsely. All of an orthographic view is
     // at one.
     let z = match view.direction {
@@ -161,7 +165,7 @@ pub fn choose(
         None => view.eye.distance(centre) - radius,
     };
     let for_pixels = if z > 0.0 {
-        slices_for_pixels(l[i], sin_view_angle(c[i]), z, view.pixels, quality.pixels)
+        slices_for_pixels(l[i], sin_view_angle(least), z, view.pixels, quality.pixels)
     } else {
         f32::INFINITY
     };
@@ -170,6 +174,22 @@ pub fn choose(
         exponent: count_exponent(for_depth.min(for_pixels), measure.most[i]) as u8,
         along: c[i] > 0.0,
     }
+}
+
+/// The least cosine of the angle between a normal and the directions to all corners of the prism; 0 if they lie on both
+/// sides. `c` is that of the centre.
+fn least_cosine(facet: &Facet, normal: Vec3, view: &TexelView, c: f32) -> f32 {
+    if view.direction.is_some() {
+        return c.abs();
+    }
+    let mut least = c.abs();
+    for corner in [0.0, 1.0].into_iter().flat_map(|w| facet.corners(w)) {
+        let to_corner = corner - view.eye;
+        let along = normal.dot(to_corner) * c.signum();
+        // An eye in the corner is as good as beside it.
+        least = least.min(along / to_corner.length().max(f32::MIN_POSITIVE));
+    }
+    least.max(0.0)
 }
 
 /// Chooses for many facets, without allocating.

@@ -3,7 +3,7 @@
 // The direction and the number of slices of a facet, for one view (§4.2, §4.3): step by step what choose/mod.rs is.
 
 #import bevy_verdure::texel::criteria::{choose_direction, count_exponent, sin_view_angle, slices_for_depth, slices_for_pixels, tan_view_angle}
-#import bevy_verdure::texel::facet::{Facet, facet_bounds, facet_point, normal_and_length, stretches, texel_frame}
+#import bevy_verdure::texel::facet::{Facet, corners, facet_bounds, facet_point, normal_and_length, stretches, texel_frame}
 
 struct VolumeMeasure {
     most: vec3<u32>,
@@ -41,6 +41,26 @@ struct Choice {
     depth: f32,
 }
 
+// The least cosine of the angle between a normal and the directions to all corners of the prism; 0 if they lie on both
+// sides. `c` is that of the centre.
+fn least_cosine(facet: Facet, normal: vec3<f32>, view: TexelView, c: f32) -> f32 {
+    if view.orthographic {
+        return abs(c);
+    }
+    let low = corners(facet, 0.0);
+    let high = corners(facet, 1.0);
+    let side = normal * select(1.0, -1.0, c < 0.0);
+    var least = abs(c);
+    for (var k = 0u; k < 3u; k += 1u) {
+        least = min(least, min(cosine_to(low[k] - view.eye, side), cosine_to(high[k] - view.eye, side)));
+    }
+    return max(least, 0.0);
+}
+
+fn cosine_to(corner: vec3<f32>, normal: vec3<f32>) -> f32 {
+    return dot(normal, corner) / max(length(corner), 1e-30);
+}
+
 fn choose(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQuality) -> Choice {
     let bounds = facet_bounds(facet);
     let centre = bounds.xyz;
@@ -70,15 +90,22 @@ fn choose(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQ
     let stretch = stretches(frame, measure.lengths);
     let e = measure.thickness * min(stretch.yxx, stretch.zzy);
     let i = choose_direction(c, select(h, h / e, quality.by_quality));
-    let tan_a = tan_view_angle(c[i]);
-    let d = quality.depth * e[i];
-    let for_depth = slices_for_depth(l[i], tan_a, d);
+    // Not by index, on which Mesa's software driver of 2022 crashes.
+    let chosen = vec3<f32>(vec3(i) == vec3(0u, 1u, 2u));
+    let cosine = dot(c, chosen);
+    let texel_length = dot(l, chosen);
+    let most = u32(dot(vec3<f32>(measure.most), chosen));
+    let normal = mat3x3(across_u.normal, across_v.normal, across_w.normal) * chosen;
+    let least = least_cosine(facet, normal, view, cosine);
+    let tan_a = tan_view_angle(least);
+    let d = quality.depth * dot(e, chosen);
+    let for_depth = slices_for_depth(texel_length, tan_a, d);
     // The nearest that the facet can be.
     let z = select(distance(view.eye, centre) - radius, 1.0, view.orthographic);
     var slices = for_depth;
     if z > 0.0 {
-        slices = min(for_depth, slices_for_pixels(l[i], sin_view_angle(c[i]), z, view.pixels, quality.pixels));
+        slices = min(for_depth, slices_for_pixels(texel_length, sin_view_angle(least), z, view.pixels, quality.pixels));
     }
-    let exponent = count_exponent(slices, measure.most[i]);
-    return Choice(true, i, exponent, c[i] > 0.0, l[i] / f32(1u << exponent) * tan_a, d);
+    let exponent = count_exponent(slices, most);
+    return Choice(true, i, exponent, cosine > 0.0, texel_length / f32(1u << exponent) * tan_a, d);
 }
