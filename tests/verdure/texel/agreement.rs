@@ -120,7 +120,7 @@ fn compare(name: &str, picture: &Pixels, facets: &[Facet], shot: &Shot, settings
 fn fine() -> TexelSettings {
     TexelSettings {
         quality: TexelQuality {
-            depth: 0.08,
+            depth: 0.05,
             ..default()
         },
         ..unlit()
