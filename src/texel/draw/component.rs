@@ -74,6 +74,9 @@ pub struct TexelSettings {
     pub roughness: f32,
     /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`.
     pub reflectance: f32,
+    /// How far the top moves in the [`Wind`](crate::wind::Wind), in heights, for each metre a second: 0 is stiff, 0.03 is
+    /// grass. Height vectors bend, and keep their length.
+    pub flexibility: f32,
 }
 
 impl Default for TexelSettings {
@@ -90,6 +93,7 @@ impl Default for TexelSettings {
             lit: true,
             roughness: 0.8,
             reflectance: 0.3,
+            flexibility: 0.0,
         }
     }
 }

@@ -35,7 +35,7 @@ pub(crate) struct GeometryKey {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct TexelKeys {
     pub geometry: GeometryKey,
-    settings: [u32; 8],
+    settings: [u32; 9],
 }
 
 impl TexelKeys {
@@ -63,6 +63,7 @@ impl TexelKeys {
                 settings.lit.into(),
                 settings.roughness.to_bits(),
                 settings.reflectance.to_bits(),
+                settings.flexibility.to_bits(),
             ],
         }
     }
@@ -103,6 +104,7 @@ impl TexelLibrary {
         surface: &TexelSurface,
         settings: &TexelSettings,
         most_layers: u32,
+        wind: Vec3,
         assets: &mut TexelAssets,
     ) -> Option<(&Geometry, [Handle<TexelMaterial>; 3])> {
         let volume = self.volume(keys.geometry.volume, most_layers, assets)?;
@@ -129,7 +131,7 @@ impl TexelLibrary {
             SliceAxis::ALL.map(|axis| {
                 let [color, normal] = images[axis.index()].clone();
                 assets.materials.add(TexelMaterial {
-                    texels: TexelsUniform::new(&measure, settings),
+                    texels: TexelsUniform::new(&measure, settings, wind),
                     facets: geometry.facets.clone(),
                     color,
                     normal,
@@ -165,6 +167,19 @@ impl TexelLibrary {
         self.geometries.retain(|key, _| key.volume.id != id);
         self.materials
             .retain(|keys, _| keys.geometry.volume.id != id);
+    }
+
+    /// Tells all materials of a change of wind.
+    pub(crate) fn follow_wind(&self, wind: Vec3, materials: &mut Assets<TexelMaterial>) {
+        for handle in self.materials.values().flatten() {
+            let is_stiff = materials
+                .get(handle)
+                .is_none_or(|known| known.texels.wind.w == 0.0);
+            if !is_stiff && let Some(mut material) = materials.get_mut(handle) {
+                let flexibility = material.texels.wind.w;
+                material.texels.wind = wind.extend(flexibility);
+            }
+        }
     }
 
     /// Follows a mesh that was edited.

@@ -3,7 +3,7 @@
 use bevy::asset::{Asset, AssetPath};
 use bevy::image::Image;
 use bevy::material::OpaqueRendererMethod;
-use bevy::math::{UVec3, Vec3};
+use bevy::math::{UVec3, Vec3, Vec4};
 use bevy::mesh::MeshVertexBufferLayoutRef;
 use bevy::pbr::{Material, MaterialPipeline, MaterialPipelineKey, MeshPipelineKey};
 use bevy::prelude::*;
@@ -31,10 +31,12 @@ pub(crate) struct TexelsUniform {
     reflectance: f32,
     shadow_depth: f32,
     shadow_pixels: f32,
+    /// Velocity of the wind, and flexibility.
+    pub(crate) wind: Vec4,
 }
 
 impl TexelsUniform {
-    pub(crate) fn new(measure: &VolumeMeasure, settings: &TexelSettings) -> Self {
+    pub(crate) fn new(measure: &VolumeMeasure, settings: &TexelSettings, wind: Vec3) -> Self {
         let quality = &settings.quality;
         Self {
             most: measure.most,
@@ -47,6 +49,7 @@ impl TexelsUniform {
             reflectance: settings.reflectance,
             shadow_depth: settings.shadows.depth,
             shadow_pixels: settings.shadows.pixels,
+            wind: wind.extend(settings.flexibility),
         }
     }
 }
@@ -138,10 +141,13 @@ impl Material for TexelMaterial {
         if let Some(fragment) = &mut descriptor.fragment {
             fragment.shader_defs.push(axis);
         }
+        // The shaders know where four samples lie; with more or fewer, texels have plain outlines.
+        let four = descriptor.multisample.count == 4;
         let sun = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
         for (set, def) in [
             (key.bind_group_data.lit, "TEXEL_LIT"),
             (key.mesh_key.contains(sun), "TEXEL_DIRECTIONAL_LIGHT"),
+            (four, "TEXEL_FOUR_SAMPLES"),
         ] {
             if set {
                 descriptor.vertex.shader_defs.push(def.into());

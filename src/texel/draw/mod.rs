@@ -37,10 +37,12 @@ pub use surface_mesh::TexelSurfaceError;
 pub use systems::TexelSlices;
 
 use crate::VerdureSystems;
+use crate::wind::Wind;
 
 /// Draws [`TexelSurface`]s.
 ///
-/// Needs Bevy's rendering plugins, and [`TexelVolumePlugin`](super::TexelVolumePlugin).
+/// Needs Bevy's rendering plugins, [`TexelVolumePlugin`](super::TexelVolumePlugin), and
+/// [`WindPlugin`](crate::wind::WindPlugin).
 pub struct TexelPlugin;
 
 impl Plugin for TexelPlugin {
@@ -67,6 +69,7 @@ impl Plugin for TexelPlugin {
                     systems::follow_assets,
                     systems::attach,
                     systems::follow_surfaces,
+                    systems::follow_wind.run_if(resource_changed::<Wind>),
                 )
                     .chain()
                     // An app without a renderer has none; it draws no texels either.

@@ -20,13 +20,20 @@ pub(crate) const ATTRIBUTE_SLOT: MeshVertexAttribute = MeshVertexAttribute::new(
 /// The most slots of a surface across each axis. A mesh of them takes 56 bytes each.
 pub const MAX_SLOTS: usize = 1 << 21;
 
-/// How many slots a facet needs for at most so many slices a texel across an axis.
+/// How many slots a facet needs for at most so many slices a texel across an axis: for those, and for half as many, into
+/// which they fade.
 ///
 /// Fewer slices a texel are no more on a facet, but for what rounding adds: an interval of length ℓ meets at most ⌈ℓN⌉ of N
 /// slices a texel.
 pub(crate) fn slots_of(facet: &Facet, axis: SliceAxis, most: u32) -> usize {
-    let range = slice_range(facet.uvs, axis, most);
-    range.end.abs_diff(range.start) as usize + usize::from(axis != SliceAxis::W)
+    let on_facet = |count: u32| {
+        let range = slice_range(facet.uvs, axis, count);
+        range.end.abs_diff(range.start) as usize + usize::from(axis != SliceAxis::W)
+    };
+    match most {
+        0 | 1 => on_facet(1),
+        _ => on_facet(most) + on_facet(most / 2),
+    }
 }
 
 /// The mesh for facets that need so many slots each.

@@ -12,6 +12,7 @@ use super::super::axis::SliceAxis;
 use super::component::{TexelSettings, TexelSurface};
 use super::library::{TexelAssets, TexelKeys, TexelLibrary};
 use super::material::TexelMaterial;
+use crate::wind::Wind;
 
 /// Marks the children of a [`TexelSurface`] that its slices are drawn by, one for each axis. Made by the plugin; they
 /// follow their surface's
@@ -38,6 +39,7 @@ pub(crate) fn attach(
     mut library: ResMut<TexelLibrary>,
     mut assets: TexelAssets,
     device: Option<Res<RenderDevice>>,
+    wind: Res<Wind>,
     surfaces: Query<(
         Entity,
         &TexelSurface,
@@ -51,10 +53,11 @@ pub(crate) fn attach(
     >,
 ) {
     let layers = device.map_or(LAYERS, |device| device.limits().max_texture_array_layers);
+    let wind = wind.limited();
     for (entity, surface, settings, mesh, drawn) in &surfaces {
         let keys = TexelKeys::new(surface, mesh.id(), settings);
         let Some((geometry, materials)) =
-            library.drawn(keys, surface, settings, layers, &mut assets)
+            library.drawn(keys, surface, settings, layers, wind, &mut assets)
         else {
             continue;
         };
@@ -110,6 +113,15 @@ pub(crate) fn follow_assets(
             library.follow_mesh(*id, &mut assets);
         }
     }
+}
+
+/// Tells the materials of a change of wind.
+pub(crate) fn follow_wind(
+    library: Res<TexelLibrary>,
+    mut materials: ResMut<Assets<TexelMaterial>>,
+    wind: Res<Wind>,
+) {
+    library.follow_wind(wind.limited(), &mut materials);
 }
 
 /// What of a surface its slices follow.

@@ -2,7 +2,7 @@
 
 // The direction and the number of slices of a facet, for one view (§4.2, §4.3): step by step what choose/mod.rs is.
 
-#import bevy_verdure::texel::criteria::{choose_direction, count_exponent, sin_view_angle, slices_for_depth, slices_for_pixels, tan_view_angle}
+#import bevy_verdure::texel::criteria::{choose_direction, count_exponent, direction_cost, finer_share, second_share, sin_view_angle, slices_for_depth, slices_for_pixels, tan_view_angle}
 #import bevy_verdure::texel::facet::{Facet, corners, facet_bounds, facet_point, normal_and_length, stretches, texel_frame}
 
 struct VolumeMeasure {
@@ -36,9 +36,26 @@ struct Choice {
     axis: u32,
     exponent: u32,
     along: bool,
+    // The share of twice as many slices.
+    finer: f32,
     // How deep inside of contours one may see, h·tan(a), and d, which it should not exceed; in lengths of the facet's space.
     inside: f32,
     depth: f32,
+}
+
+// A facet as a view sees it, along u, v and w.
+struct FacetInView {
+    // Whether any of it may be seen.
+    seen: bool,
+    // Unit normals of slices.
+    normals: mat3x3<f32>,
+    c: vec3<f32>,
+    l: vec3<f32>,
+    e: vec3<f32>,
+    // (1/c² − 1)·h².
+    cost: vec3<f32>,
+    // The least distance of any part of it; 1 of an orthographic view.
+    z: f32,
 }
 
 // The least cosine of the angle between a normal and the directions to all corners of the prism; 0 if they lie on both
@@ -61,51 +78,83 @@ fn cosine_to(corner: vec3<f32>, normal: vec3<f32>) -> f32 {
     return dot(normal, corner) / max(length(corner), 1e-30);
 }
 
-fn choose(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQuality) -> Choice {
+fn look_at(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQuality) -> FacetInView {
+    var seen: FacetInView;
     let bounds = facet_bounds(facet);
     let centre = bounds.xyz;
     let radius = bounds.w;
     for (var i = 0u; i < 6u; i += 1u) {
         let plane = view.half_spaces[i];
         if dot(plane.xyz, centre) + plane.w < -radius {
-            return Choice(false, 2u, 0u, false, 0.0, 0.0);
+            return seen;
         }
     }
+    seen.seen = true;
     let middle = vec3(1.0 / 3.0);
     let place = facet_point(facet, middle, 0.5);
     let to_place = select(place - view.eye, view.direction, view.orthographic);
-    let distance_to_place = length(to_place);
     // From a point inside the prism every direction may be seen.
-    if distance_to_place == 0.0 {
-        return Choice(true, 2u, count_exponent(f32(measure.most.z), measure.most.z), false, 0.0, 0.0);
-    }
-    let direction = to_place / distance_to_place;
+    let direction = to_place / max(length(to_place), 1e-30);
     let frame = texel_frame(facet, middle, 0.5);
     let across_u = normal_and_length(frame.edges[0], frame.edges[1], frame.edges[2]);
     let across_v = normal_and_length(frame.edges[1], frame.edges[0], frame.edges[2]);
     let across_w = normal_and_length(frame.edges[2], frame.edges[0], frame.edges[1]);
-    let c = vec3(dot(across_u.normal, direction), dot(across_v.normal, direction), dot(across_w.normal, direction));
-    let l = vec3(across_u.length, across_v.length, across_w.length);
-    let h = l / vec3<f32>(measure.most);
+    seen.normals = mat3x3(across_u.normal, across_v.normal, across_w.normal);
+    seen.c = vec3(dot(across_u.normal, direction), dot(across_v.normal, direction), dot(across_w.normal, direction));
+    seen.l = vec3(across_u.length, across_v.length, across_w.length);
+    let h = seen.l / vec3<f32>(measure.most);
     let stretch = stretches(frame, measure.lengths);
-    let e = measure.thickness * min(stretch.yxx, stretch.zzy);
-    let i = choose_direction(c, select(h, h / e, quality.by_quality));
+    seen.e = measure.thickness * min(stretch.yxx, stretch.zzy);
+    let step = select(h, h / seen.e, quality.by_quality);
+    seen.cost = vec3(
+        direction_cost(seen.c.x, step.x), direction_cost(seen.c.y, step.y), direction_cost(seen.c.z, step.z));
+    seen.z = select(distance(view.eye, centre) - radius, 1.0, view.orthographic);
+    return seen;
+}
+
+// Slices across one axis, however good a direction it is.
+fn choose_count(
+    facet: Facet, seen: FacetInView, axis: u32, measure: VolumeMeasure, view: TexelView, quality: TexelQuality,
+) -> Choice {
     // Not by index, on which Mesa's software driver of 2022 crashes.
-    let chosen = vec3<f32>(vec3(i) == vec3(0u, 1u, 2u));
-    let cosine = dot(c, chosen);
-    let texel_length = dot(l, chosen);
+    let chosen = vec3<f32>(vec3(axis) == vec3(0u, 1u, 2u));
+    let c = dot(seen.c, chosen);
+    let l = dot(seen.l, chosen);
     let most = u32(dot(vec3<f32>(measure.most), chosen));
-    let normal = mat3x3(across_u.normal, across_v.normal, across_w.normal) * chosen;
-    let least = least_cosine(facet, normal, view, cosine);
+    let least = least_cosine(facet, seen.normals * chosen, view, c);
     let tan_a = tan_view_angle(least);
-    let d = quality.depth * dot(e, chosen);
-    let for_depth = slices_for_depth(texel_length, tan_a, d);
-    // The nearest that the facet can be.
-    let z = select(distance(view.eye, centre) - radius, 1.0, view.orthographic);
-    var slices = for_depth;
-    if z > 0.0 {
-        slices = min(for_depth, slices_for_pixels(texel_length, sin_view_angle(least), z, view.pixels, quality.pixels));
+    let d = quality.depth * dot(seen.e, chosen);
+    var slices = slices_for_depth(l, tan_a, d);
+    if seen.z > 0.0 {
+        slices = min(slices, slices_for_pixels(l, sin_view_angle(least), seen.z, view.pixels, quality.pixels));
     }
     let exponent = count_exponent(slices, most);
-    return Choice(true, i, exponent, cosine > 0.0, texel_length / f32(1u << exponent) * tan_a, d);
+    let finer = finer_share(slices, exponent, most);
+    return Choice(true, axis, exponent, c > 0.0, finer, l / f32(1u << exponent) * tan_a, d);
+}
+
+fn choose(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQuality) -> Choice {
+    let seen = look_at(facet, measure, view, quality);
+    var choice: Choice;
+    if seen.seen {
+        choice = choose_count(facet, seen, choose_direction(seen.cost), measure, view, quality);
+    }
+    return choice;
+}
+
+// Which pixels the slices across an axis get: those whose lot, from 0 to 1, lies from x to y. All if it is the best
+// direction by far, none if it is not, and a share if another is nearly as good.
+fn lots_of_axis(cost: vec3<f32>, axis: u32) -> vec2<f32> {
+    let best = choose_direction(cost);
+    let is_best = vec3(best) == vec3(0u, 1u, 2u);
+    let others = select(cost, vec3(3e38), is_best);
+    let second = choose_direction(others);
+    if axis != best && axis != second {
+        return vec2(0.0);
+    }
+    let least = dot(cost, vec3<f32>(is_best));
+    let share = second_share(least, min(min(others.x, others.y), others.z));
+    // The axis of the lower index gets the lower lots, so that both share all of them.
+    let lower = select(share, 1.0 - share, best < second);
+    return select(vec2(lower, 1.0), vec2(0.0, lower), axis == min(best, second));
 }

@@ -18,8 +18,8 @@ fn direction_cost(c: f32, h: f32) -> f32 {
     return max(1.0 - square, 0.0) / max(square, LEAST) * (h * h);
 }
 
-fn choose_direction(c: vec3<f32>, h: vec3<f32>) -> u32 {
-    let cost = vec3(direction_cost(c.x, h.x), direction_cost(c.y, h.y), direction_cost(c.z, h.z));
+// By costs; the later one of equals.
+fn choose_direction(cost: vec3<f32>) -> u32 {
     var best = 2u;
     var least = cost.z;
     if cost.y < least {
@@ -47,4 +47,23 @@ fn count_exponent(slices: f32, most: u32) -> u32 {
         exponent += 1u;
     }
     return exponent;
+}
+
+// The last part of the way to the next count, and to the next direction, in which one fades into the other.
+const FADE: f32 = 0.25;
+
+fn finer_share(slices: f32, exponent: u32, most: u32) -> f32 {
+    if (1u << (exponent + 1u)) > most {
+        return 0.0;
+    }
+    let used = slices / f32(1u << exponent);
+    return clamp((used - (1.0 - FADE)) / FADE, 0.0, 1.0);
+}
+
+fn second_share(best: f32, second: f32) -> f32 {
+    if second <= 0.0 {
+        return 0.5;
+    }
+    let alike = best / second;
+    return 0.5 * clamp((alike - (1.0 - FADE)) / FADE, 0.0, 1.0);
 }

@@ -5,7 +5,7 @@
     pbr_types,
 }
 #import bevy_pbr::mesh_bindings::mesh
-#import bevy_verdure::texel::look::{is_there, slice_color, slice_normal_and_alpha, world_normal}
+#import bevy_verdure::texel::look::{coverage, slice_color, slice_normal_and_alpha, world_normal}
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::texel::types::texels
 
@@ -14,11 +14,19 @@ fn vertex(corner: Corner) -> Varying {
     return place_corner(corner);
 }
 
+struct Output {
+    @location(0) color: vec4<f32>,
+#ifdef TEXEL_FOUR_SAMPLES
+    @builtin(sample_mask) coverage: u32,
+#endif
+}
+
 @fragment
-fn fragment(in: Varying) -> @location(0) vec4<f32> {
+fn fragment(in: Varying) -> Output {
     let baked = slice_normal_and_alpha(in);
     let seen = slice_color(in);
-    if !is_there(baked.a) {
+    let covered = coverage(in, baked.a);
+    if covered == 0u {
         discard;
     }
     let normal = world_normal(in, baked.xyz);
@@ -40,5 +48,10 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     color = pbr_functions::apply_pbr_lighting(input);
 #endif
     color = pbr_functions::main_pass_post_lighting_processing(input, color);
-    return vec4(color.rgb, 1.0);
+    var out: Output;
+    out.color = vec4(color.rgb, 1.0);
+#ifdef TEXEL_FOUR_SAMPLES
+    out.coverage = covered;
+#endif
+    return out;
 }

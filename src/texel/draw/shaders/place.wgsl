@@ -4,9 +4,18 @@
 
 #import bevy_pbr::mesh_bindings::mesh
 #import bevy_pbr::mesh_view_bindings::view
-#import bevy_verdure::texel::choose::{TexelQuality, TexelView, VolumeMeasure, choose}
+#import bevy_render::globals::Globals
+#import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
+#import bevy_verdure::texel::choose::{TexelQuality, TexelView, VolumeMeasure, choose_count, look_at, lots_of_axis}
 #import bevy_verdure::texel::facet::{Facet, facet_point, facet_uv, normal_transform, slice_line_end, slice_position, slice_range, texel_frame}
 #import bevy_verdure::texel::types::{facets, texels}
+#import bevy_verdure::wind::sway
+
+#ifdef PREPASS_PIPELINE
+@group(0) @binding(1) var<uniform> globals: Globals;
+#else
+#import bevy_pbr::mesh_view_bindings::globals
+#endif
 
 // The slices of each axis are a draw of their own.
 const AXIS: u32 = #{TEXEL_AXIS}u;
@@ -31,6 +40,8 @@ struct Varying {
     @location(7) local_position: vec3<f32>,
     // How far, in metres, the surface may be above the place inside of it that is seen.
     @location(8) @interpolate(flat) inside: f32,
+    // Which pixels are this slice's, by their lots.
+    @location(9) @interpolate(flat) lots: vec2<f32>,
 }
 
 fn is_orthographic() -> bool {
@@ -48,15 +59,31 @@ fn facet_from_eye(index: u32, instance_index: u32) -> Facet {
     let m = mesh[instance_index].world_from_local;
     let turn = transpose(mat3x3(m[0].xyz, m[1].xyz, m[2].xyz));
     let origin = vec3(m[0].w, m[1].w, m[2].w) - view.world_position;
+    let positions = turn * mat3x3(record.positions[0].xyz, record.positions[1].xyz, record.positions[2].xyz)
+        + mat3x3(origin, origin, origin);
+    let heights = turn * mat3x3(record.heights[0].xyz, record.heights[1].xyz, record.heights[2].xyz);
     return Facet(
-        turn * mat3x3(record.positions[0].xyz, record.positions[1].xyz, record.positions[2].xyz)
-            + mat3x3(origin, origin, origin),
-        turn * mat3x3(record.heights[0].xyz, record.heights[1].xyz, record.heights[2].xyz),
+        positions,
+        mat3x3(bend(positions[0], heights[0]), bend(positions[1], heights[1]), bend(positions[2], heights[2])),
         mat3x2(
             vec2(record.positions[0].w, record.heights[0].w),
             vec2(record.positions[1].w, record.heights[1].w),
             vec2(record.positions[2].w, record.heights[2].w)),
     );
+}
+
+// A height vector in the wind: as long as it was. It keeps what it has of the way up, so that it never leads through the
+// surface.
+fn bend(foot: vec3<f32>, height: vec3<f32>) -> vec3<f32> {
+    if texels.wind.w == 0.0 || all(texels.wind.xyz == vec3(0.0)) {
+        return height;
+    }
+    let tall = length(height);
+    let moved = sway(texels.wind.xyz, foot + view.world_position, 1.0, texels.wind.w * tall, globals.time);
+    // Along the height vector nothing moves.
+    let aside = moved - height * (dot(moved, height) / max(tall * tall, 1e-30));
+    let bent = height + aside;
+    return bent * (tall / max(length(bent), 1e-30));
 }
 
 // This view, with its eye at zero.
@@ -91,21 +118,37 @@ fn place_corner(in: Corner) -> Varying {
     out.position = vec4(0.0, 0.0, -2.0, 1.0);
     out.instance_index = in.instance_index;
     let facet = facet_from_eye(in.corner.x, in.instance_index);
-    let choice = choose(
-        facet,
-        VolumeMeasure(texels.most, texels.lengths, texels.thickness),
-        texel_view(),
-        texel_quality(),
-    );
-    if !choice.drawn || choice.axis != AXIS {
+    let measure = VolumeMeasure(texels.most, texels.lengths, texels.thickness);
+    let view_of_texels = texel_view();
+    let quality = texel_quality();
+    let seen = look_at(facet, measure, view_of_texels, quality);
+    var lots = lots_of_axis(seen.cost, AXIS);
+    if is_light() {
+        // Shadows are not seen to pop, and stay whole.
+        lots = round(lots);
+    }
+    if !seen.seen || lots.x >= lots.y {
         return out;
     }
-    let count = 1u << choice.exponent;
-    let range = slice_range(facet.uvs, AXIS, count);
-    let slot = i32(in.corner.y >> 2u);
-    if slot >= range.y {
+    let choice = choose_count(facet, seen, AXIS, measure, view_of_texels, quality);
+    let finer = select(choice.finer, 0.0, is_light());
+    var count = 1u << choice.exponent;
+    var range = slice_range(facet.uvs, AXIS, count);
+    var slot = i32(in.corner.y >> 2u);
+    // Twice as many slices fade in: they have the next slots, and the lower lots.
+    let split = mix(lots.x, lots.y, finer);
+    if slot < range.y {
+        lots.x = split;
+    } else {
+        slot -= range.y;
+        count *= 2u;
+        range = slice_range(facet.uvs, AXIS, count);
+        lots.y = split;
+    }
+    if slot >= range.y || lots.x >= lots.y {
         return out;
     }
+    out.lots = lots;
     // Near slices first, so that they hide the far ones.
     let slice = range.x + select(range.y - 1 - slot, slot, choice.along);
     let corner = in.corner.y & 3u;
@@ -136,10 +179,13 @@ fn place_corner(in: Corner) -> Varying {
 #endif
     out.position = clip;
     out.world_position = vec4(from_eye + view.world_position, 1.0);
-    let record = facets[in.corner.x];
-    out.local_position = (record.positions[0].xyz + record.heights[0].xyz * w) * b.x
-        + (record.positions[1].xyz + record.heights[1].xyz * w) * b.y
-        + (record.positions[2].xyz + record.heights[2].xyz * w) * b.z;
+    // In local space as bent, so that motion vectors leave wind out.
+    let m = mesh[in.instance_index].world_from_local;
+    let origin = vec3(m[0].w, m[1].w, m[2].w) - view.world_position;
+    out.local_position = transpose(mat2x4_f32_to_mat3x3_unpack(
+        mesh[in.instance_index].local_from_world_transpose_a,
+        mesh[in.instance_index].local_from_world_transpose_b,
+    )) * (from_eye - origin);
     let turn = normal_transform(texel_frame(facet, b, w), texels.lengths);
     out.normal_from_u = turn[0];
     out.normal_from_v = turn[1];

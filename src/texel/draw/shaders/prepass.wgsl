@@ -2,7 +2,7 @@
 
 #import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
 #import bevy_pbr::mesh_view_bindings::view
-#import bevy_verdure::texel::look::{is_there, slice_normal_and_alpha, world_normal}
+#import bevy_verdure::texel::look::{coverage, slice_normal_and_alpha, world_normal}
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner}
 
 @vertex
@@ -22,15 +22,22 @@ struct Output {
 #ifdef UNCLIPPED_DEPTH_ORTHO_EMULATION
     @builtin(frag_depth) depth: f32,
 #endif
+#ifdef TEXEL_FOUR_SAMPLES
+    @builtin(sample_mask) coverage: u32,
+#endif
 }
 
 @fragment
 fn fragment(in: Varying) -> Output {
     let baked = slice_normal_and_alpha(in);
-    if !is_there(baked.a) {
+    let covered = coverage(in, baked.a);
+    if covered == 0u {
         discard;
     }
     var out: Output;
+#ifdef TEXEL_FOUR_SAMPLES
+    out.coverage = covered;
+#endif
 #ifdef NORMAL_PREPASS
     out.normal = vec4(world_normal(in, baked.xyz) * 0.5 + vec3(0.5), 1.0);
 #endif
@@ -48,11 +55,22 @@ fn fragment(in: Varying) -> Output {
     return out;
 }
 
+#else ifdef TEXEL_FOUR_SAMPLES
+
+@fragment
+fn fragment(in: Varying) -> @builtin(sample_mask) u32 {
+    let covered = coverage(in, slice_normal_and_alpha(in).a);
+    if covered == 0u {
+        discard;
+    }
+    return covered;
+}
+
 #else
 
 @fragment
 fn fragment(in: Varying) {
-    if !is_there(slice_normal_and_alpha(in).a) {
+    if coverage(in, slice_normal_and_alpha(in).a) == 0u {
         discard;
     }
 }

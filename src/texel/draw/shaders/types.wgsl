@@ -23,6 +23,8 @@ struct Texels {
     // Depth and pixels for the views of lights.
     shadow_depth: f32,
     shadow_pixels: f32,
+    // xyz: velocity of the wind; w: how far it moves the top, in heights, for each metre a second.
+    wind: vec4<f32>,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;
