@@ -137,7 +137,6 @@ pub fn choose(
     };
     let frame = TexelFrame::new(facet, middle, 0.5);
     let mut c = [0.0; 3];
-    let mut l = [0.0; 3];
     let mut h = [0.0; 3];
     let mut e = [0.0; 3];
     let mut step = [0.0; 3];
@@ -145,7 +144,6 @@ pub fn choose(
         let i = axis.index();
         let (normal, length) = frame.normal_and_length(axis);
         c[i] = normal.dot(direction);
-        l[i] = length;
         h[i] = length / measure.most[i] as f32;
         e[i] = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
         step[i] = match quality.direction {
@@ -155,42 +153,62 @@ pub fn choose(
     }
     let i = choose_direction(c, step);
     let axis = SliceAxis::ALL[i];
-    let (normal, _) = frame.normal_and_length(axis);
-    let least = least_cosine(facet, normal, view, c[i]);
-    let for_depth = slices_for_depth(l[i], tan_view_angle(least), quality.depth * e[i]);
     // The nearest that the facet can be, so that no part of it is drawn too coarsely. All of an orthographic view is
     // at one.
     let z = match view.direction {
         Some(_) => 1.0,
         None => view.eye.distance(centre) - radius,
     };
-    let for_pixels = if z > 0.0 {
-        slices_for_pixels(l[i], sin_view_angle(least), z, view.pixels, quality.pixels)
-    } else {
-        f32::INFINITY
-    };
+    let slices = slices_needed(facet, axis, measure, view, quality, c[i], z);
     Choice::Slices {
         axis,
-        exponent: count_exponent(for_depth.min(for_pixels), measure.most[i]) as u8,
+        exponent: count_exponent(slices, measure.most[i]) as u8,
         along: c[i] > 0.0,
     }
 }
 
-/// The least cosine of the angle between a normal and the directions to all corners of the prism; 0 if they lie on both
-/// sides. `c` is that of the centre.
-fn least_cosine(facet: &Facet, normal: Vec3, view: &TexelView, c: f32) -> f32 {
-    if view.direction.is_some() {
-        return c.abs();
+/// How many slices the corners of the prism need, of which each has a frame of its own where height vectors differ. `c` is
+/// the cosine at the centre; `z` is the least distance.
+fn slices_needed(
+    facet: &Facet,
+    axis: SliceAxis,
+    measure: &VolumeMeasure,
+    view: &TexelView,
+    quality: &TexelQuality,
+    c: f32,
+    z: f32,
+) -> f32 {
+    let (mut for_depth, mut for_pixels) = (0.0f32, 0.0f32);
+    for w in [0.0, 1.0] {
+        for (b, corner) in [Vec3::X, Vec3::Y, Vec3::Z]
+            .into_iter()
+            .zip(facet.corners(w))
+        {
+            let frame = TexelFrame::new(facet, b, w);
+            let (normal, l) = frame.normal_and_length(axis);
+            let to_corner = view.direction.unwrap_or(corner - view.eye);
+            // Seen from the other side than the centre, slices are seen along themselves in between.
+            let side = if c < 0.0 { -1.0 } else { 1.0 };
+            let cosine = normal.dot(to_corner) * side / to_corner.length().max(LEAST_LENGTH);
+            let cosine = cosine.max(0.0);
+            let e = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
+            let d = quality.depth * e;
+            for_depth = for_depth.max(slices_for_depth(l, tan_view_angle(cosine), d));
+            let sin_a = sin_view_angle(cosine);
+            for_pixels =
+                for_pixels.max(slices_for_pixels(l, sin_a, z, view.pixels, quality.pixels));
+        }
     }
-    let mut least = c.abs();
-    for corner in [0.0, 1.0].into_iter().flat_map(|w| facet.corners(w)) {
-        let to_corner = corner - view.eye;
-        let along = normal.dot(to_corner) * c.signum();
-        // An eye in the corner is as good as beside it.
-        least = least.min(along / to_corner.length().max(f32::MIN_POSITIVE));
+    // An eye in reach of the prism sees slices however far apart.
+    if z > 0.0 {
+        for_depth.min(for_pixels)
+    } else {
+        for_depth
     }
-    least.max(0.0)
 }
+
+/// In place of the length of a vector that has none.
+const LEAST_LENGTH: f32 = 1e-30;
 
 /// Chooses for many facets, without allocating.
 ///

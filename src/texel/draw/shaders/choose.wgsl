@@ -50,32 +50,11 @@ struct FacetInView {
     // Unit normals of slices.
     normals: mat3x3<f32>,
     c: vec3<f32>,
-    l: vec3<f32>,
     e: vec3<f32>,
     // (1/c² − 1)·h².
     cost: vec3<f32>,
     // The least distance of any part of it; 1 of an orthographic view.
     z: f32,
-}
-
-// The least cosine of the angle between a normal and the directions to all corners of the prism; 0 if they lie on both
-// sides. `c` is that of the centre.
-fn least_cosine(facet: Facet, normal: vec3<f32>, view: TexelView, c: f32) -> f32 {
-    if view.orthographic {
-        return abs(c);
-    }
-    let low = corners(facet, 0.0);
-    let high = corners(facet, 1.0);
-    let side = normal * select(1.0, -1.0, c < 0.0);
-    var least = abs(c);
-    for (var k = 0u; k < 3u; k += 1u) {
-        least = min(least, min(cosine_to(low[k] - view.eye, side), cosine_to(high[k] - view.eye, side)));
-    }
-    return max(least, 0.0);
-}
-
-fn cosine_to(corner: vec3<f32>, normal: vec3<f32>) -> f32 {
-    return dot(normal, corner) / max(length(corner), 1e-30);
 }
 
 fn look_at(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQuality) -> FacetInView {
@@ -101,8 +80,8 @@ fn look_at(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: Texel
     let across_w = normal_and_length(frame.edges[2], frame.edges[0], frame.edges[1]);
     seen.normals = mat3x3(across_u.normal, across_v.normal, across_w.normal);
     seen.c = vec3(dot(across_u.normal, direction), dot(across_v.normal, direction), dot(across_w.normal, direction));
-    seen.l = vec3(across_u.length, across_v.length, across_w.length);
-    let h = seen.l / vec3<f32>(measure.most);
+    let l = vec3(across_u.length, across_v.length, across_w.length);
+    let h = l / vec3<f32>(measure.most);
     let stretch = stretches(frame, measure.lengths);
     seen.e = measure.thickness * min(stretch.yxx, stretch.zzy);
     let step = select(h, h / seen.e, quality.by_quality);
@@ -112,6 +91,34 @@ fn look_at(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: Texel
     return seen;
 }
 
+// How many slices the corners of the prism need for depth, and for pixels. `c` is the cosine at the centre.
+fn slices_needed(
+    facet: Facet, axis: u32, measure: VolumeMeasure, view: TexelView, quality: TexelQuality, c: f32, z: f32,
+) -> vec2<f32> {
+    let side = select(1.0, -1.0, c < 0.0);
+    let chosen = vec3<f32>(vec3(axis) == vec3(0u, 1u, 2u));
+    var needed = vec2(0.0);
+    for (var i = 0u; i < 6u; i += 1u) {
+        let b = vec3<f32>(vec3(i % 3u) == vec3(0u, 1u, 2u));
+        let w = f32(i / 3u);
+        let frame = texel_frame(facet, b, w);
+        // The other two edges lie in the slices.
+        let edge = frame.edges * chosen;
+        let first = select(frame.edges[0], frame.edges[1], axis == 0u);
+        let second = select(frame.edges[2], frame.edges[1], axis == 2u);
+        let across = normal_and_length(edge, first, second);
+        let to_corner = select(corners(facet, w) * b - view.eye, view.direction, view.orthographic);
+        // Seen from the other side than the centre, slices are seen along themselves in between.
+        let cosine = max(dot(across.normal, to_corner) * side / max(length(to_corner), 1e-30), 0.0);
+        let stretch = stretches(frame, measure.lengths);
+        let e = dot(measure.thickness * min(stretch.yxx, stretch.zzy), chosen);
+        needed = max(needed, vec2(
+            slices_for_depth(across.length, tan_view_angle(cosine), quality.depth * e),
+            slices_for_pixels(across.length, sin_view_angle(cosine), z, view.pixels, quality.pixels)));
+    }
+    return needed;
+}
+
 // Slices across one axis, however good a direction it is.
 fn choose_count(
     facet: Facet, seen: FacetInView, axis: u32, measure: VolumeMeasure, view: TexelView, quality: TexelQuality,
@@ -119,18 +126,14 @@ fn choose_count(
     // Not by index, on which Mesa's software driver of 2022 crashes.
     let chosen = vec3<f32>(vec3(axis) == vec3(0u, 1u, 2u));
     let c = dot(seen.c, chosen);
-    let l = dot(seen.l, chosen);
     let most = u32(dot(vec3<f32>(measure.most), chosen));
-    let least = least_cosine(facet, seen.normals * chosen, view, c);
-    let tan_a = tan_view_angle(least);
-    let d = quality.depth * dot(seen.e, chosen);
-    var slices = slices_for_depth(l, tan_a, d);
-    if seen.z > 0.0 {
-        slices = min(slices, slices_for_pixels(l, sin_view_angle(least), seen.z, view.pixels, quality.pixels));
-    }
+    let needed = slices_needed(facet, axis, measure, view, quality, c, seen.z);
+    // An eye in reach of the prism sees slices however far apart.
+    let slices = select(needed.x, min(needed.x, needed.y), seen.z > 0.0);
     let exponent = count_exponent(slices, most);
     let finer = finer_share(slices, exponent, most);
-    return Choice(true, axis, exponent, c > 0.0, finer, l / f32(1u << exponent) * tan_a, d);
+    let d = quality.depth * dot(seen.e, chosen);
+    return Choice(true, axis, exponent, c > 0.0, finer, needed.x / f32(1u << exponent) * d, d);
 }
 
 fn choose(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQuality) -> Choice {

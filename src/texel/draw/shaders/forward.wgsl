@@ -5,7 +5,7 @@
     pbr_types,
 }
 #import bevy_pbr::mesh_bindings::mesh
-#import bevy_verdure::texel::look::{coverage, slice_color, slice_normal_and_alpha, world_normal}
+#import bevy_verdure::texel::look::{covered_samples, slice_color, slice_normal_and_alpha, world_normal}
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::texel::types::texels
 
@@ -25,7 +25,7 @@ struct Output {
 fn fragment(in: Varying) -> Output {
     let baked = slice_normal_and_alpha(in);
     let seen = slice_color(in);
-    let covered = coverage(in, baked.a);
+    let covered = covered_samples(in, baked.a);
     if covered == 0u {
         discard;
     }

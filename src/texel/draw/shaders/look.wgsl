@@ -22,7 +22,7 @@ fn lot(position: vec4<f32>) -> f32 {
 
 // Which samples of a pixel are there, where alpha goes through one half. Pixels of slices are there or not; what
 // filtering puts between is where their outline runs.
-fn coverage(in: Varying, alpha: f32) -> u32 {
+fn covered_samples(in: Varying, alpha: f32) -> u32 {
     let mine = lot(in.position);
     let is_mine = mine >= in.lots.x && mine < in.lots.y;
 #ifdef TEXEL_FOUR_SAMPLES

@@ -2,7 +2,7 @@
 
 #import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
 #import bevy_pbr::mesh_view_bindings::view
-#import bevy_verdure::texel::look::{coverage, slice_normal_and_alpha, world_normal}
+#import bevy_verdure::texel::look::{covered_samples, slice_normal_and_alpha, world_normal}
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner}
 
 @vertex
@@ -30,7 +30,7 @@ struct Output {
 @fragment
 fn fragment(in: Varying) -> Output {
     let baked = slice_normal_and_alpha(in);
-    let covered = coverage(in, baked.a);
+    let covered = covered_samples(in, baked.a);
     if covered == 0u {
         discard;
     }
@@ -59,7 +59,7 @@ fn fragment(in: Varying) -> Output {
 
 @fragment
 fn fragment(in: Varying) -> @builtin(sample_mask) u32 {
-    let covered = coverage(in, slice_normal_and_alpha(in).a);
+    let covered = covered_samples(in, slice_normal_and_alpha(in).a);
     if covered == 0u {
         discard;
     }
@@ -70,7 +70,7 @@ fn fragment(in: Varying) -> @builtin(sample_mask) u32 {
 
 @fragment
 fn fragment(in: Varying) {
-    if coverage(in, slice_normal_and_alpha(in).a) == 0u {
+    if covered_samples(in, slice_normal_and_alpha(in).a) == 0u {
         discard;
     }
 }
