@@ -132,8 +132,11 @@ fn choose_count(
     let slices = select(needed.x, min(needed.x, needed.y), seen.z > 0.0);
     let exponent = count_exponent(slices, most);
     let finer = finer_share(slices, exponent, most);
-    let d = quality.depth * dot(seen.e, chosen);
-    return Choice(true, axis, exponent, c > 0.0, finer, needed.x / f32(1u << exponent) * d, d);
+    let e = dot(seen.e, chosen);
+    let d = quality.depth * e;
+    // Beyond e there are gaps, and no inside.
+    let inside = min(needed.x / f32(1u << exponent) * d, e);
+    return Choice(true, axis, exponent, c > 0.0, finer, inside, d);
 }
 
 fn choose(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQuality) -> Choice {
