@@ -47,7 +47,10 @@ pub mod prelude {
         BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
         Orientations, SliceOrder, SlicedCrown, Slicing, bake,
     };
-    pub use crate::texel::{TexelQuality, TexelSettings, TexelSurface, TexelVolume};
+    pub use crate::texel::{
+        LiveTexels, TexelCycle, TexelHeights, TexelQuality, TexelSettings, TexelSurface,
+        TexelVolume,
+    };
     pub use crate::wind::Wind;
     pub use crate::{VerdurePlugin, VerdureSystems};
 }

@@ -42,6 +42,9 @@ struct Args {
     /// The most slices a texel.
     #[arg(long, default_value_t = TexelSettings::default().most_slices)]
     most: u32,
+    /// Wind along x, in metres a second.
+    #[arg(long, default_value_t = 4.0, allow_hyphen_values = true)]
+    wind: f32,
     /// Let texels cast no shadows.
     #[arg(long)]
     unshadowed: bool,
@@ -75,6 +78,7 @@ fn run(args: &Args) -> Result<(), String> {
             ..default()
         },
         most_slices: args.most,
+        flexibility: scene.flexibility(),
         lit: !args.unlit,
         ..default()
     };
@@ -83,10 +87,13 @@ fn run(args: &Args) -> Result<(), String> {
     stage.eye = args.eye.unwrap_or(stage.eye);
     stage.at = args.at.unwrap_or(stage.at);
     let (turns, unshadowed) = (args.turns, args.unshadowed);
+    let wind = Wind::new(Vec3::X * args.wind);
     let (prepass, plain) = (args.prepass, args.plain);
     let title = format!("texels_{}", scene.name());
     common::run(&title, &args.common, move |app| {
         app.add_plugins(stage)
+            .insert_resource(wind)
+            .add_systems(Update, wave)
             .insert_resource(common::Orbit {
                 centre: stage.centre,
                 speed: turns,
@@ -108,6 +115,9 @@ fn run(args: &Args) -> Result<(), String> {
                             settings,
                             surface.place,
                         ));
+                        if scene == Scene::Flag {
+                            entity.insert(LiveTexels);
+                        }
                         if unshadowed {
                             entity.insert(NotShadowCaster);
                         }
@@ -134,4 +144,17 @@ fn run(args: &Args) -> Result<(), String> {
                 },
             );
     })
+}
+
+/// Lets live surfaces wave.
+fn wave(
+    time: Res<Time>,
+    flags: Query<&Mesh3d, With<LiveTexels>>,
+    mut meshes: ResMut<Assets<Mesh>>,
+) {
+    for flag in &flags {
+        if let Some(mut mesh) = meshes.get_mut(flag) {
+            *mesh = surfaces::flag(time.elapsed_secs());
+        }
+    }
 }

@@ -25,9 +25,11 @@ pub enum Scene {
     Sphere,
     /// 100 of them on a jittered plane of 200 triangles (Figure 16).
     Plane,
-    /// A ball of fur.
+    /// A furry flag, of which all vertices move.
+    Flag,
+    /// A ball of fur in the wind.
     Fur,
-    /// A hill of grass.
+    /// A hill of grass in the wind.
     Meadow,
 }
 
@@ -53,7 +55,7 @@ impl Scene {
             Self::Pear | Self::Pears => Pattern::Pear,
             Self::Bushes => Pattern::Bush,
             Self::Noise | Self::Sphere | Self::Plane => Pattern::Noise,
-            Self::Fur => Pattern::Fur,
+            Self::Flag | Self::Fur => Pattern::Fur,
             Self::Meadow => Pattern::Grass,
         };
         let built = pattern.build(pattern.size(), Spreading::default(), &silent);
@@ -65,6 +67,7 @@ impl Scene {
         let (eye, at) = match self {
             Self::Pear => (Vec3::new(0.6, 1.6, 3.2), Vec3::new(0.0, 0.45, 0.0)),
             Self::Pears | Self::Sphere | Self::Fur => (Vec3::new(0.0, 1.9, 4.6), Vec3::Y * 1.3),
+            Self::Flag => (Vec3::new(0.4, 1.9, 3.4), Vec3::new(0.0, 1.3, 0.0)),
             Self::Bushes => (Vec3::new(0.0, 2.2, 5.6), Vec3::Y * 0.2),
             Self::Noise => (Vec3::new(0.0, 1.5, 3.0), Vec3::Y * 0.1),
             Self::Plane => (Vec3::new(0.0, 2.4, 6.5), Vec3::ZERO),
@@ -76,6 +79,14 @@ impl Scene {
             centre: at.with_x(0.0).with_z(0.0),
             shadows: 20.0,
             haze: (30.0, 120.0),
+        }
+    }
+
+    /// How far its texels bend in the wind.
+    pub const fn flexibility(self) -> f32 {
+        match self {
+            Self::Meadow | Self::Fur => 0.03,
+            _ => 0.0,
         }
     }
 
@@ -141,6 +152,14 @@ impl Scene {
                 0.25,
                 Transform::from_xyz(0.0, 0.05, 0.0),
             )],
+            Self::Flag => vec![Covered {
+                color: Some(Color::srgb(0.10, 0.06, 0.03)),
+                ..covered(
+                    surfaces::flag(0.0),
+                    0.05,
+                    Transform::from_xyz(0.0, 1.3, 0.0),
+                )
+            }],
             Self::Fur => vec![Covered {
                 color: Some(Color::srgb(0.10, 0.06, 0.03)),
                 ..covered(

@@ -115,3 +115,17 @@ pub fn with_heights(mut mesh: Mesh, height: impl Fn(Vec3) -> Vec3) -> Mesh {
     }
     mesh
 }
+
+/// A flag in the wind at a time, in seconds: 8 by 5 squares, held at its left side.
+pub fn flag(time: f32) -> Mesh {
+    let place = |x: f32, y: f32| {
+        let wave = (5.0 * x - 6.0 * time + 0.8 * y).sin() * 0.16 * x;
+        Vec3::new(x - 0.8, y - 0.5, wave)
+    };
+    lattice(8, 5, |column, row| {
+        let (x, y) = (column as f32 * 0.2, row as f32 * 0.2);
+        let along = place(x + 0.01, y) - place(x - 0.01, y);
+        let up = place(x, y + 0.01) - place(x, y - 0.01);
+        (place(x, y), along.cross(up).normalize())
+    })
+}

@@ -58,8 +58,8 @@ pub use choose::{
     Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose, choose_all,
 };
 pub use draw::{
-    ATTRIBUTE_HEIGHT_VECTOR, MAX_SLOTS, TexelMaterial, TexelPlugin, TexelSettings, TexelSlices,
-    TexelSurface, TexelSurfaceError,
+    ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, MAX_SLOTS, TexelCycle, TexelHeights, TexelMaterial,
+    TexelPlugin, TexelSettings, TexelSlices, TexelSurface, TexelSurfaceError,
 };
 pub use error::TexelError;
 pub use from_mesh::ShapeMeshError;

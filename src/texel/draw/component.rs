@@ -57,6 +57,43 @@ impl Default for TexelSurface {
     }
 }
 
+/// Height vectors of one [`TexelSurface`], one for each vertex of its mesh, in the mesh's space: they take the place of those
+/// of the mesh. Change them to move the texels, as a hand does that strokes fur; what changed is uploaded in the same frame.
+#[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct TexelHeights(pub Vec<Vec3>);
+
+/// Marks a [`TexelSurface`] whose mesh is changed in most frames, such as a flag: the mesh is read in every frame, so that its
+/// texels do not lag one frame behind, as they do after a single edit.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct LiveTexels;
+
+/// Shows volumes one after the other on a [`TexelSurface`], as in a cartoon (§5). Volumes stay on the GPU as long as they are
+/// named here; those that are not loaded yet are left out.
+#[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct TexelCycle {
+    /// The volumes, in order.
+    pub volumes: Vec<Handle<TexelVolume>>,
+    /// Volumes a second; backwards if negative.
+    pub rate: f32,
+}
+
+impl TexelCycle {
+    /// Which volume is shown at a time, in seconds; none if there is none, or the rate is no number.
+    pub fn at(&self, seconds: f32) -> Option<&Handle<TexelVolume>> {
+        let number = (seconds * self.rate).floor();
+        let count = self.volumes.len() as f32;
+        let index = number.rem_euclid(count);
+        if index.is_finite() {
+            self.volumes.get(index as usize)
+        } else {
+            None
+        }
+    }
+}
+
 /// How a [`TexelSurface`] is drawn. Filled in where it has none; may be changed at any time.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
@@ -95,5 +132,36 @@ impl Default for TexelSettings {
             reflectance: 0.3,
             flexibility: 0.0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy::asset::uuid::Uuid;
+
+    use super::*;
+
+    #[test]
+    fn volumes_come_one_after_the_other_and_again() {
+        let volumes: Vec<_> = (0..3)
+            .map(|i| Handle::Uuid(Uuid::from_u128(i), core::marker::PhantomData))
+            .collect();
+        let mut cycle = TexelCycle {
+            volumes: volumes.clone(),
+            rate: 2.0,
+        };
+        let shown = |cycle: &TexelCycle, seconds| cycle.at(seconds).cloned();
+        for (seconds, index) in [(0.0, 0), (0.49, 0), (0.5, 1), (1.1, 2), (1.6, 0)] {
+            assert_eq!(
+                shown(&cycle, seconds),
+                Some(volumes[index].clone()),
+                "{seconds}"
+            );
+        }
+        cycle.rate = -2.0;
+        assert_eq!(shown(&cycle, 0.1), Some(volumes[2].clone()));
+        cycle.rate = f32::NAN;
+        assert_eq!(cycle.at(1.0), None);
+        assert_eq!(TexelCycle::default().at(1.0), None);
     }
 }

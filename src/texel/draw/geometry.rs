@@ -9,7 +9,8 @@ use bevy::render::storage::ShaderBuffer;
 
 use super::super::axis::SliceAxis;
 use super::super::facet::{Facet, SurfaceFacets};
-use super::records::facet_buffer;
+use super::component::TexelHeights;
+use super::records::{FacetRecord, facet_buffer};
 use super::slots::{MAX_SLOTS, slot_mesh, slots_of};
 use super::surface_mesh::{TexelSurfaceError, surface};
 
@@ -23,14 +24,23 @@ pub(crate) struct Geometry {
     pub most: UVec3,
     /// Slots of each facet across u, v and w.
     counts: [Vec<usize>; 3],
+    records: Vec<FacetRecord>,
 }
 
-/// The facets of a mesh with texels as thick.
-pub(crate) fn facets(mesh: &Mesh, thickness: f32) -> Result<SurfaceFacets, TexelSurfaceError> {
+/// The facets of a mesh with texels as thick, or with other height vectors than its own.
+pub(crate) fn facets(
+    mesh: &Mesh,
+    thickness: f32,
+    heights: Option<&TexelHeights>,
+) -> Result<SurfaceFacets, TexelSurfaceError> {
     if !(thickness.is_finite() && thickness > 0.0) {
         return Err(TexelSurfaceError::Thickness(thickness));
     }
-    Ok(surface(mesh)?.facets(thickness)?)
+    let mut surface = surface(mesh)?;
+    if let Some(heights) = heights {
+        surface.heights.clone_from(&heights.0);
+    }
+    Ok(surface.facets(thickness)?)
 }
 
 impl Geometry {
@@ -42,33 +52,43 @@ impl Geometry {
         buffers: &mut Assets<ShaderBuffer>,
     ) -> Self {
         let (counts, most) = count_slots(facets, most);
+        let records: Vec<FacetRecord> = facets.iter().map(FacetRecord::from).collect();
         Self {
             slots: add_slots(&counts, meshes),
-            facets: buffers.add(facet_buffer(facets)),
+            facets: buffers.add(facet_buffer(&records)),
             bounds: bounds(facets),
             most,
             counts,
+            records,
         }
     }
 
-    /// Follows facets that have changed.
+    /// Follows facets that may have changed. Materials must be made anew if this tells so.
     pub(crate) fn renew(
         &mut self,
         facets: &[Facet],
         most: UVec3,
         meshes: &mut Assets<Mesh>,
         buffers: &mut Assets<ShaderBuffer>,
-    ) {
-        let (counts, most) = count_slots(facets, most);
-        if counts != self.counts {
-            self.slots = add_slots(&counts, meshes);
-            self.facets = buffers.add(facet_buffer(facets));
-            self.counts = counts;
-        } else if let Some(mut buffer) = buffers.get_mut(&self.facets) {
-            *buffer = facet_buffer(facets);
+    ) -> bool {
+        let records: Vec<FacetRecord> = facets.iter().map(FacetRecord::from).collect();
+        if records == self.records {
+            return false;
         }
-        self.most = most;
         self.bounds = bounds(facets);
+        let (counts, most) = count_slots(facets, most);
+        if counts == self.counts {
+            // The buffer is written, and stays where it is.
+            if let Some(mut buffer) = buffers.get_mut(&self.facets) {
+                *buffer = facet_buffer(&records);
+            }
+            self.records = records;
+            return false;
+        }
+        self.slots = add_slots(&counts, meshes);
+        self.facets = buffers.add(facet_buffer(&records));
+        (self.records, self.counts, self.most) = (records, counts, most);
+        true
     }
 }
 

@@ -2,7 +2,6 @@
 
 use bevy::asset::AssetId;
 use bevy::image::Image;
-use bevy::math::UVec3;
 use bevy::platform::collections::{HashMap, HashSet};
 use bevy::prelude::*;
 use bevy::render::storage::ShaderBuffer;
@@ -10,8 +9,9 @@ use bevy::render::storage::ShaderBuffer;
 use super::super::asset::TexelVolume;
 use super::super::axis::SliceAxis;
 use super::super::choose::VolumeMeasure;
+use super::super::facet::Facet;
 use super::super::slice_sets::SliceSets;
-use super::component::{TexelSettings, TexelSurface};
+use super::component::{TexelHeights, TexelSettings, TexelSurface};
 use super::geometry::{Geometry, facets};
 use super::images::slice_images;
 use super::material::{TexelMaterial, TexelsUniform};
@@ -23,12 +23,13 @@ pub(crate) struct VolumeKey {
     most: u32,
 }
 
-/// A mesh that carries so thick texels of a volume.
+/// A mesh that carries so thick texels of a volume; `own` is the surface that shares it with none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct GeometryKey {
     mesh: AssetId<Mesh>,
     thickness: u32,
     volume: VolumeKey,
+    own: Option<Entity>,
 }
 
 /// Surfaces that are drawn together: one mesh, one volume, the same settings.
@@ -43,6 +44,7 @@ impl TexelKeys {
         surface: &TexelSurface,
         mesh: AssetId<Mesh>,
         settings: &TexelSettings,
+        own: Option<Entity>,
     ) -> Self {
         let quality = &settings.quality;
         Self {
@@ -53,6 +55,7 @@ impl TexelKeys {
                     id: surface.volume.id(),
                     most: settings.most_slices,
                 },
+                own,
             },
             settings: [
                 quality.direction as u32,
@@ -95,33 +98,62 @@ pub(crate) struct TexelAssets<'w> {
     pub volumes: Res<'w, Assets<TexelVolume>>,
 }
 
+/// What there is to draw of a surface.
+pub(crate) enum Drawn<'a> {
+    /// Its mesh or volume is not there yet.
+    NotYet,
+    /// Its mesh carries no texels.
+    Nothing,
+    /// Slots, bounds, and materials across u, v and w.
+    Slices(&'a Geometry, [Handle<TexelMaterial>; 3]),
+}
+
+impl TexelKeys {
+    /// The same for another volume.
+    pub(crate) fn with_volume(mut self, id: AssetId<TexelVolume>) -> Self {
+        self.geometry.volume.id = id;
+        self
+    }
+}
+
 impl TexelLibrary {
-    /// What a surface is drawn with: slots, bounds, and materials across u, v and w. None while its mesh or volume is not there, or
-    /// if the mesh carries no texels.
+    /// What a surface is drawn with. `heights` are its own, if it has any.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all that a surface's looks depend on"
+    )]
     pub(crate) fn drawn(
         &mut self,
         keys: TexelKeys,
         surface: &TexelSurface,
         settings: &TexelSettings,
+        heights: Option<&TexelHeights>,
         most_layers: u32,
         wind: Vec3,
         assets: &mut TexelAssets,
-    ) -> Option<(&Geometry, [Handle<TexelMaterial>; 3])> {
-        let volume = self.volume(keys.geometry.volume, most_layers, assets)?;
+    ) -> Drawn<'_> {
+        let Some(volume) = self.volume(keys.geometry.volume, most_layers, assets) else {
+            return Drawn::NotYet;
+        };
         let measure = volume.measure;
         let images = volume.images.clone();
-        let geometry = match self.geometries.get(&keys.geometry) {
-            Some(Some(_)) => self.geometries.get(&keys.geometry)?.as_ref()?,
-            Some(None) => return None,
-            None => {
-                let geometry =
-                    new_geometry(keys.geometry, surface.thickness, measure.most, assets)?;
-                self.geometries
-                    .entry(keys.geometry)
-                    .insert(geometry)
-                    .into_mut()
-                    .as_ref()?
-            }
+        if !self.geometries.contains_key(&keys.geometry) {
+            let Some(mesh) = assets.meshes.get(keys.geometry.mesh) else {
+                return Drawn::NotYet;
+            };
+            let found = told_facets(keys.geometry.mesh, mesh, surface.thickness, heights);
+            let geometry = found.map(|facets| {
+                Geometry::new(
+                    &facets,
+                    measure.most,
+                    &mut assets.meshes,
+                    &mut assets.buffers,
+                )
+            });
+            self.geometries.insert(keys.geometry, geometry);
+        }
+        let Some(Some(geometry)) = self.geometries.get(&keys.geometry) else {
+            return Drawn::Nothing;
         };
         let materials = self.materials.entry(keys).or_insert_with(|| {
             let measure = VolumeMeasure {
@@ -140,7 +172,7 @@ impl TexelLibrary {
                 })
             })
         });
-        Some((geometry, materials.clone()))
+        Drawn::Slices(geometry, materials.clone())
     }
 
     fn volume(
@@ -184,71 +216,85 @@ impl TexelLibrary {
 
     /// Follows a mesh that was edited.
     pub(crate) fn follow_mesh(&mut self, id: AssetId<Mesh>, assets: &mut TexelAssets) {
-        let mut replaced = HashSet::new();
-        for (key, geometry) in &mut self.geometries {
-            if key.mesh != id {
-                continue;
-            }
-            let thickness = f32::from_bits(key.thickness);
-            let found = assets.meshes.get(id).map(|mesh| facets(mesh, thickness));
-            let (Some(Ok(found)), Some(geometry), Some(volume)) =
-                (found, geometry.as_mut(), self.volumes.get(&key.volume))
-            else {
-                replaced.insert(*key);
-                continue;
-            };
-            let before = (geometry.facets.clone(), geometry.most);
-            geometry.renew(
-                &found.facets,
-                volume.measure.most,
-                &mut assets.meshes,
-                &mut assets.buffers,
-            );
-            if before != (geometry.facets.clone(), geometry.most) {
-                self.materials.retain(|keys, _| keys.geometry != *key);
+        let of_mesh = |key: &&GeometryKey| key.mesh == id;
+        let keys: Vec<GeometryKey> = self.geometries.keys().filter(of_mesh).copied().collect();
+        for key in keys {
+            if key.own.is_none() {
+                self.renew(key, None, assets);
+            } else {
+                // Its surface makes it anew, with height vectors of its own.
+                self.geometries.remove(&key);
+                self.materials.retain(|keys, _| keys.geometry != key);
             }
         }
-        self.geometries.retain(|key, _| !replaced.contains(key));
-        self.materials
-            .retain(|keys, _| !replaced.contains(&keys.geometry));
+    }
+
+    /// Follows the mesh and the height vectors of a surface that shares its geometry with none.
+    pub(crate) fn renew(
+        &mut self,
+        key: GeometryKey,
+        heights: Option<&TexelHeights>,
+        assets: &mut TexelAssets,
+    ) {
+        let Some(geometry) = self.geometries.get_mut(&key) else {
+            return;
+        };
+        let thickness = f32::from_bits(key.thickness);
+        let mesh = assets.meshes.get(key.mesh);
+        let found = mesh.and_then(|mesh| facets(mesh, thickness, heights).ok());
+        let volume = self.volumes.get(&key.volume);
+        let is_stale = match (geometry, volume, found) {
+            (Some(geometry), Some(volume), Some(found)) if !found.facets.is_empty() => {
+                let (meshes, buffers) = (&mut assets.meshes, &mut assets.buffers);
+                geometry.renew(&found.facets, volume.measure.most, meshes, buffers)
+            }
+            _ => {
+                // It is looked at anew, and told if it is wrong.
+                self.geometries.remove(&key);
+                true
+            }
+        };
+        if is_stale {
+            self.materials.retain(|keys, _| keys.geometry != key);
+        }
+    }
+
+    /// Forgets everything, on a device that has taken a lost one's place and has nothing of what was there.
+    pub(crate) fn clear(&mut self) {
+        *self = Self::default();
     }
 
     /// Forgets what no surface uses any more.
     pub(crate) fn keep(&mut self, used: &HashSet<TexelKeys>) {
         self.materials.retain(|keys, _| used.contains(keys));
         let geometries: HashSet<_> = used.iter().map(|keys| keys.geometry).collect();
-        self.geometries.retain(|key, _| geometries.contains(key));
+        // What was told once need not be told again.
+        self.geometries
+            .retain(|key, geometry| geometries.contains(key) || geometry.is_none());
         let volumes: HashSet<_> = geometries.iter().map(|key| key.volume).collect();
         self.volumes.retain(|key, _| volumes.contains(key));
     }
 }
 
-/// The geometry of a mesh; none if there is none to be had, and nothing if the mesh is not there yet.
-#[expect(clippy::option_option, reason = "not yet, and never")]
-fn new_geometry(
-    key: GeometryKey,
+/// The facets of a mesh; none, and a message, if it has none.
+fn told_facets(
+    id: AssetId<Mesh>,
+    mesh: &Mesh,
     thickness: f32,
-    most: UVec3,
-    assets: &mut TexelAssets,
-) -> Option<Option<Geometry>> {
-    let mesh = assets.meshes.get(key.mesh)?;
-    let found = match facets(mesh, thickness) {
+    heights: Option<&TexelHeights>,
+) -> Option<Vec<Facet>> {
+    let found = match facets(mesh, thickness, heights) {
         Ok(found) => found,
         Err(error) => {
-            error!("mesh {:?} carries no texels: {error}", key.mesh);
-            return Some(None);
+            error!("mesh {id:?} carries no texels: {error}");
+            return None;
         }
     };
     if let Some((triangle, fault)) = found.left_out.first() {
         warn!(
-            "mesh {:?}: {} of its triangles carry no texels, the first is {triangle}: {fault}",
-            key.mesh,
+            "mesh {id:?}: {} of its triangles carry no texels, the first is {triangle}: {fault}",
             found.left_out.len()
         );
     }
-    if found.facets.is_empty() {
-        return Some(None);
-    }
-    let geometry = Geometry::new(&found.facets, most, &mut assets.meshes, &mut assets.buffers);
-    Some(Some(geometry))
+    (!found.facets.is_empty()).then_some(found.facets)
 }

@@ -30,7 +30,9 @@ use bevy::prelude::*;
 use bevy::render::storage::ShaderBuffer;
 use bevy::shader::load_shader_library;
 
-pub use component::{ATTRIBUTE_HEIGHT_VECTOR, TexelSettings, TexelSurface};
+pub use component::{
+    ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface,
+};
 pub use material::TexelMaterial;
 pub use slots::MAX_SLOTS;
 pub use surface_mesh::TexelSurfaceError;
@@ -59,6 +61,9 @@ impl Plugin for TexelPlugin {
         app.add_plugins(MaterialPlugin::<TexelMaterial>::default())
             .register_type::<TexelSurface>()
             .register_type::<TexelSettings>()
+            .register_type::<TexelHeights>()
+            .register_type::<LiveTexels>()
+            .register_type::<TexelCycle>()
             .register_type::<TexelSlices>()
             .init_resource::<library::TexelLibrary>()
             .add_observer(systems::uproot)
@@ -66,6 +71,7 @@ impl Plugin for TexelPlugin {
                 PostUpdate,
                 (
                     systems::forget,
+                    systems::cycle,
                     systems::follow_assets,
                     systems::attach,
                     systems::follow_surfaces,

@@ -26,12 +26,7 @@ impl From<&Facet> for FacetRecord {
     }
 }
 
-/// The buffer of a surface's facets.
-pub(crate) fn facet_buffer(facets: &[Facet]) -> ShaderBuffer {
-    let mut records: Vec<FacetRecord> = facets.iter().map(FacetRecord::from).collect();
-    if records.is_empty() {
-        // Buffers are not empty.
-        records.push(FacetRecord::zeroed());
-    }
-    ShaderBuffer::new(bytemuck::cast_slice(&records), RenderAssetUsages::default())
+/// The buffer of a surface's facets, of which there is at least one.
+pub(crate) fn facet_buffer(records: &[FacetRecord]) -> ShaderBuffer {
+    ShaderBuffer::new(bytemuck::cast_slice(records), RenderAssetUsages::default())
 }

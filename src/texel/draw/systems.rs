@@ -9,8 +9,8 @@ use bevy::render::renderer::RenderDevice;
 
 use super::super::asset::TexelVolume;
 use super::super::axis::SliceAxis;
-use super::component::{TexelSettings, TexelSurface};
-use super::library::{TexelAssets, TexelKeys, TexelLibrary};
+use super::component::{LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface};
+use super::library::{Drawn, TexelAssets, TexelKeys, TexelLibrary};
 use super::material::TexelMaterial;
 use crate::wind::Wind;
 
@@ -29,8 +29,34 @@ pub(crate) struct TexelDrawn {
     slices: [Entity; 3],
 }
 
+impl TexelDrawn {
+    fn despawn(&self, commands: &mut Commands) {
+        for slices in self.slices {
+            commands.entity(slices).try_despawn();
+        }
+    }
+}
+
 /// Layers of a texture array that every device has.
 const LAYERS: u32 = 256;
+
+/// What is looked at of a surface.
+type Attachable<'w> = (
+    Entity,
+    &'w TexelSurface,
+    &'w TexelSettings,
+    &'w Mesh3d,
+    Option<Ref<'w, TexelHeights>>,
+    Has<LiveTexels>,
+    Option<&'w TexelDrawn>,
+);
+
+/// The children that slices are drawn by.
+type Slices<'w> = (
+    &'w mut Mesh3d,
+    &'w mut MeshMaterial3d<TexelMaterial>,
+    &'w mut Aabb,
+);
 
 /// Gives surfaces whose mesh and volume are there what they are drawn with. One whose volume is not there yet keeps what it
 /// has.
@@ -40,26 +66,33 @@ pub(crate) fn attach(
     mut assets: TexelAssets,
     device: Option<Res<RenderDevice>>,
     wind: Res<Wind>,
-    surfaces: Query<(
-        Entity,
-        &TexelSurface,
-        &TexelSettings,
-        &Mesh3d,
-        Option<&TexelDrawn>,
-    )>,
-    mut slices: Query<
-        (&mut Mesh3d, &mut MeshMaterial3d<TexelMaterial>, &mut Aabb),
-        (With<TexelSlices>, Without<TexelSurface>),
-    >,
+    surfaces: Query<Attachable>,
+    mut slices: Query<Slices, (With<TexelSlices>, Without<TexelSurface>)>,
 ) {
+    if device.as_ref().is_some_and(|device| device.is_changed()) {
+        library.clear();
+    }
     let layers = device.map_or(LAYERS, |device| device.limits().max_texture_array_layers);
     let wind = wind.limited();
-    for (entity, surface, settings, mesh, drawn) in &surfaces {
-        let keys = TexelKeys::new(surface, mesh.id(), settings);
-        let Some((geometry, materials)) =
-            library.drawn(keys, surface, settings, layers, wind, &mut assets)
-        else {
-            continue;
+    for (entity, surface, settings, mesh, heights, is_live, drawn) in &surfaces {
+        let own = (heights.is_some() || is_live).then_some(entity);
+        let keys = TexelKeys::new(surface, mesh.id(), settings, own);
+        let is_moved = is_live || heights.as_ref().is_some_and(|heights| heights.is_changed());
+        let heights = heights.as_deref();
+        if is_moved {
+            library.renew(keys.geometry, heights, &mut assets);
+        }
+        let found = library.drawn(keys, surface, settings, heights, layers, wind, &mut assets);
+        let (geometry, materials) = match found {
+            Drawn::NotYet => continue,
+            Drawn::Nothing => {
+                if let Some(drawn) = drawn {
+                    drawn.despawn(&mut commands);
+                    commands.entity(entity).try_remove::<TexelDrawn>();
+                }
+                continue;
+            }
+            Drawn::Slices(geometry, materials) => (geometry, materials),
         };
         let Some(drawn) = drawn else {
             let slices = SliceAxis::ALL.map(SliceAxis::index).map(|axis| {
@@ -97,6 +130,7 @@ pub(crate) fn attach(
 pub(crate) fn follow_assets(
     mut edited_meshes: MessageReader<AssetEvent<Mesh>>,
     mut edited_volumes: MessageReader<AssetEvent<TexelVolume>>,
+    live: Query<&Mesh3d, With<LiveTexels>>,
     mut library: ResMut<TexelLibrary>,
     mut assets: TexelAssets,
 ) {
@@ -105,7 +139,8 @@ pub(crate) fn follow_assets(
             library.forget_volume(*id);
         }
     }
-    let mut seen = HashSet::new();
+    // Live meshes are followed anyway.
+    let mut seen: HashSet<_> = live.iter().map(|mesh| mesh.id()).collect();
     for event in edited_meshes.read() {
         if let AssetEvent::Modified { id } = event
             && seen.insert(*id)
@@ -178,11 +213,20 @@ pub(crate) fn uproot(
     mut commands: Commands,
 ) {
     if let Ok(drawn) = drawn.get(removed.entity) {
-        for slices in drawn.slices {
-            commands.entity(slices).try_despawn();
-        }
+        drawn.despawn(&mut commands);
         if let Ok(mut entity) = commands.get_entity(removed.entity) {
             entity.try_remove::<TexelDrawn>();
+        }
+    }
+}
+
+/// Shows the volume whose turn it is.
+pub(crate) fn cycle(time: Res<Time>, mut surfaces: Query<(&TexelCycle, &mut TexelSurface)>) {
+    for (cycle, mut surface) in &mut surfaces {
+        if let Some(volume) = cycle.at(time.elapsed_secs())
+            && *volume != surface.volume
+        {
+            surface.volume = volume.clone();
         }
     }
 }
@@ -192,9 +236,15 @@ pub(crate) fn forget(
     mut removed: RemovedComponents<TexelDrawn>,
     mut library: ResMut<TexelLibrary>,
     changed: Query<(), Changed<TexelDrawn>>,
-    drawn: Query<&TexelDrawn>,
+    drawn: Query<(&TexelDrawn, Option<&TexelCycle>)>,
 ) {
     if removed.read().count() > 0 || !changed.is_empty() {
-        library.keep(&drawn.iter().map(|drawn| drawn.keys).collect());
+        let mut used = HashSet::default();
+        for (drawn, cycle) in &drawn {
+            used.insert(drawn.keys);
+            let turns = cycle.into_iter().flat_map(|cycle| &cycle.volumes);
+            used.extend(turns.map(|volume| drawn.keys.with_volume(volume.id())));
+        }
+        library.keep(&used);
     }
 }

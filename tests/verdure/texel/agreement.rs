@@ -10,7 +10,7 @@ use bevy::prelude::*;
 use bevy_verdure::lab::texel::{ReferenceSteps, ReferenceTexels};
 use bevy_verdure::lab::{Pixels, Shot, Studio};
 use bevy_verdure::prelude::*;
-use bevy_verdure::texel::facet::{Facet, TexelFrame};
+use bevy_verdure::texel::facet::{Facet, TexelFrame, bend};
 use bevy_verdure::texel::{Choice, TexelQuality, TexelView, VolumeMeasure, choose};
 
 use super::{
@@ -239,4 +239,64 @@ fn surfaces_and_height_vectors_that_move_are_followed() {
         &shot(eye),
         &unlit(),
     );
+}
+
+#[test]
+fn height_vectors_of_a_surface_and_live_meshes_are_followed() {
+    let mut studio = Studio::default();
+    let square = Square::default();
+    let surface = cover(&mut studio, &square, Transform::IDENTITY, fine());
+    let eye = EYES[1];
+    studio.photograph(&shot(eye), BACKGROUND);
+    let stroked = Square {
+        heights: [Vec3::new(0.3, 0.8, 0.1); 4],
+        ..square.clone()
+    };
+    studio
+        .world()
+        .entity_mut(surface)
+        .insert(TexelHeights(stroked.heights.to_vec()));
+    let picture = studio.photograph(&shot(eye), BACKGROUND);
+    let facets = stroked.facets(&Transform::IDENTITY);
+    compare("stroked", &picture, &facets, &shot(eye), &fine());
+
+    studio
+        .world()
+        .entity_mut(surface)
+        .remove::<TexelHeights>()
+        .insert(LiveTexels);
+    let raised = Square {
+        positions: square.positions.map(|at| at + Vec3::new(0.0, 0.2, 0.0)),
+        ..square
+    };
+    let world = studio.world();
+    let mesh = world.get::<Mesh3d>(surface).unwrap().0.clone();
+    *world.resource_mut::<Assets<Mesh>>().get_mut(&mesh).unwrap() = raised.mesh();
+    let picture = studio.photograph(&shot(eye), BACKGROUND);
+    let facets = raised.facets(&Transform::IDENTITY);
+    compare("raised", &picture, &facets, &shot(eye), &fine());
+}
+
+#[test]
+fn wind_bends_height_vectors_as_the_formula_does() {
+    let mut studio = Studio::default();
+    let square = Square::default();
+    let flexible = TexelSettings {
+        flexibility: 0.05,
+        ..fine()
+    };
+    let velocity = Vec3::new(6.0, 0.0, 3.0);
+    studio.world().insert_resource(Wind::new(velocity));
+    cover(&mut studio, &square, Transform::IDENTITY, flexible);
+    let eye = EYES[1];
+    let picture = studio.photograph(&shot(eye), BACKGROUND);
+    let time = studio.world().resource::<Time>().elapsed_secs();
+    let facets = square.facets(&Transform::IDENTITY).map(|facet| {
+        let heights =
+            [0, 1, 2].map(|i| bend(facet.positions[i], facet.heights[i], velocity, 0.05, time));
+        Facet { heights, ..facet }
+    });
+    let lean = facets[0].heights[0].normalize().dot(Vec3::Y).acos();
+    assert!(lean > 0.1, "{lean}");
+    compare("wind", &picture, &facets, &shot(eye), &fine());
 }
