@@ -46,13 +46,14 @@ pub(crate) fn facets(
 impl Geometry {
     /// Of facets, for volumes of which there are so many slices.
     pub(crate) fn new(
-        facets: &[Facet],
+        found: &SurfaceFacets,
         most: UVec3,
         meshes: &mut Assets<Mesh>,
         buffers: &mut Assets<ShaderBuffer>,
     ) -> Self {
+        let facets = &found.facets;
         let (counts, most) = count_slots(facets, most);
-        let records: Vec<FacetRecord> = facets.iter().map(FacetRecord::from).collect();
+        let records = records(found);
         Self {
             slots: add_slots(&counts, meshes),
             facets: buffers.add(facet_buffer(&records)),
@@ -66,12 +67,12 @@ impl Geometry {
     /// Follows facets that may have changed. Materials must be made anew if this tells so.
     pub(crate) fn renew(
         &mut self,
-        facets: &[Facet],
+        found: &SurfaceFacets,
         most: UVec3,
         meshes: &mut Assets<Mesh>,
         buffers: &mut Assets<ShaderBuffer>,
     ) -> bool {
-        let records: Vec<FacetRecord> = facets.iter().map(FacetRecord::from).collect();
+        let (facets, records) = (&found.facets, records(found));
         if records == self.records {
             return false;
         }
@@ -90,6 +91,12 @@ impl Geometry {
         (self.records, self.counts, self.most) = (records, counts, most);
         true
     }
+}
+
+fn records(found: &SurfaceFacets) -> Vec<FacetRecord> {
+    let both = found.facets.iter().zip(&found.normals);
+    both.map(|(facet, normals)| FacetRecord::new(facet, normals))
+        .collect()
 }
 
 fn add_slots(counts: &[Vec<usize>; 3], meshes: &mut Assets<Mesh>) -> [Handle<Mesh>; 3] {

@@ -9,7 +9,7 @@ use bevy::render::storage::ShaderBuffer;
 use super::super::asset::TexelVolume;
 use super::super::axis::SliceAxis;
 use super::super::choose::VolumeMeasure;
-use super::super::facet::Facet;
+use super::super::facet::SurfaceFacets;
 use super::super::slice_sets::SliceSets;
 use super::component::{TexelHeights, TexelSettings, TexelSurface};
 use super::geometry::{Geometry, facets};
@@ -246,7 +246,7 @@ impl TexelLibrary {
         let is_stale = match (geometry, volume, found) {
             (Some(geometry), Some(volume), Some(found)) if !found.facets.is_empty() => {
                 let (meshes, buffers) = (&mut assets.meshes, &mut assets.buffers);
-                geometry.renew(&found.facets, volume.measure.most, meshes, buffers)
+                geometry.renew(&found, volume.measure.most, meshes, buffers)
             }
             _ => {
                 // It is looked at anew, and told if it is wrong.
@@ -282,7 +282,7 @@ fn told_facets(
     mesh: &Mesh,
     thickness: f32,
     heights: Option<&TexelHeights>,
-) -> Option<Vec<Facet>> {
+) -> Option<SurfaceFacets> {
     let found = match facets(mesh, thickness, heights) {
         Ok(found) => found,
         Err(error) => {
@@ -296,5 +296,5 @@ fn told_facets(
             found.left_out.len()
         );
     }
-    (!found.facets.is_empty()).then_some(found.facets)
+    (!found.facets.is_empty()).then_some(found)
 }

@@ -1,6 +1,7 @@
 //! What the GPU gets of a facet.
 
 use bevy::asset::RenderAssetUsages;
+use bevy::math::Vec3;
 use bevy::render::storage::ShaderBuffer;
 use bytemuck::{Pod, Zeroable};
 
@@ -14,14 +15,17 @@ pub(crate) struct FacetRecord {
     positions: [[f32; 4]; 3],
     /// Height vectors; w is v.
     heights: [[f32; 4]; 3],
+    /// Normals of the surface; w is not used.
+    normals: [[f32; 4]; 3],
 }
 
-impl From<&Facet> for FacetRecord {
-    fn from(facet: &Facet) -> Self {
+impl FacetRecord {
+    pub(crate) fn new(facet: &Facet, normals: &[Vec3; 3]) -> Self {
         let vertices = [0, 1, 2];
         Self {
             positions: vertices.map(|i| facet.positions[i].extend(facet.uvs[i].x).to_array()),
             heights: vertices.map(|i| facet.heights[i].extend(facet.uvs[i].y).to_array()),
+            normals: normals.map(|normal| normal.extend(0.0).to_array()),
         }
     }
 }

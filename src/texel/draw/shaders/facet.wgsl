@@ -79,6 +79,25 @@ fn normal_transform(frame: TexelFrame, lengths: vec3<f32>) -> mat3x3<f32> {
         cross(u, v) * (lengths.z * turned));
 }
 
+// The frame with u and v turned as a facet's normal is to another one, so that facets of a bent surface are shaded as one.
+fn smooth_frame(frame: TexelFrame, normal: vec3<f32>) -> TexelFrame {
+    let across = cross(frame.edges[0], frame.edges[1]);
+    let flat_normal = normalize(across * sign(dot(across, frame.edges[2])));
+    let axis = cross(flat_normal, normal);
+    // The least rotation, of which the axis is as long as the sine.
+    let along = 1.0 + dot(flat_normal, normal);
+    if dot(normal, normal) < 0.5 || along < 0.1 {
+        return frame;
+    }
+    let u = frame.edges[0];
+    let v = frame.edges[1];
+    return TexelFrame(mat3x3(
+        u + cross(axis, u) + cross(axis, cross(axis, u)) / along,
+        v + cross(axis, v) + cross(axis, cross(axis, v)) / along,
+        frame.edges[2],
+    ));
+}
+
 // By how much the box is stretched along u, v and w.
 fn stretches(frame: TexelFrame, lengths: vec3<f32>) -> vec3<f32> {
     return vec3(length(frame.edges[0]), length(frame.edges[1]), length(frame.edges[2])) / lengths;

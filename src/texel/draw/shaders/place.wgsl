@@ -7,7 +7,7 @@
 #import bevy_render::globals::Globals
 #import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
 #import bevy_verdure::texel::choose::{TexelQuality, TexelView, VolumeMeasure, choose_count, look_at, lots_of_axis}
-#import bevy_verdure::texel::facet::{Facet, facet_point, facet_uv, normal_transform, slice_line_end, slice_position, slice_range, texel_frame}
+#import bevy_verdure::texel::facet::{Facet, facet_point, facet_uv, normal_transform, slice_line_end, slice_position, slice_range, smooth_frame, texel_frame}
 #import bevy_verdure::texel::types::{facets, texels}
 #import bevy_verdure::wind::sway
 
@@ -182,11 +182,16 @@ fn place_corner(in: Corner) -> Varying {
     // In local space as bent, so that motion vectors leave wind out.
     let m = mesh[in.instance_index].world_from_local;
     let origin = vec3(m[0].w, m[1].w, m[2].w) - view.world_position;
-    out.local_position = transpose(mat2x4_f32_to_mat3x3_unpack(
+    let local_from_world_transpose = mat2x4_f32_to_mat3x3_unpack(
         mesh[in.instance_index].local_from_world_transpose_a,
         mesh[in.instance_index].local_from_world_transpose_b,
-    )) * (from_eye - origin);
-    let turn = normal_transform(texel_frame(facet, b, w), texels.lengths);
+    );
+    out.local_position = transpose(local_from_world_transpose) * (from_eye - origin);
+    let record = facets[in.corner.x];
+    let normal = local_from_world_transpose
+        * (mat3x3(record.normals[0].xyz, record.normals[1].xyz, record.normals[2].xyz) * b);
+    let frame = smooth_frame(texel_frame(facet, b, w), normal / max(length(normal), 1e-30));
+    let turn = normal_transform(frame, texels.lengths);
     out.normal_from_u = turn[0];
     out.normal_from_v = turn[1];
     out.normal_from_w = turn[2];

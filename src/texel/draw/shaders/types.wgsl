@@ -2,10 +2,11 @@
 
 // A surface's facets and a volume's slices, as records.rs and material.rs write them.
 
-// xyz: a vertex, its height vector; w: its u, its v.
+// xyz: a vertex, its height vector, its normal; w: its u, its v, nothing.
 struct FacetRecord {
     positions: array<vec4<f32>, 3>,
     heights: array<vec4<f32>, 3>,
+    normals: array<vec4<f32>, 3>,
 }
 
 struct Texels {
