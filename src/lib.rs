@@ -7,7 +7,7 @@
 //! | [`skeleton`] | joints, segments, poses; files; what a plant is before it has a surface | |
 //! | [`frusta`] | solid parts: a cone round each segment, ray cast per pixel | `skeleton` |
 //! | [`slicing`] | sparse parts: crowns of twigs and leaves, baked into blended slices | `wind` |
-//! | [`texel`] | repeated cover: a volume in slices, mapped on a surface (no drawing yet) | |
+//! | [`texel`] | repeated cover: a volume in slices, mapped on a surface | `wind` |
 //! | [`wind`] | the wind of a scene, in which crowns sway | |
 //! | [`plants`] | skeletons grown from a seed: palms, pines, cacti, and scenes of them | `skeleton` |
 //! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
@@ -47,6 +47,10 @@ pub mod prelude {
         BakeSettings, Composition, CrownLighting, CrownMaterial, CrownMesh, CrownSettings,
         CrownTint, Orientations, SliceOrder, SlicedCrown, Slicing, bake,
     };
+    pub use crate::texel::{
+        LiveTexels, TexelCycle, TexelHeights, TexelQuality, TexelSettings, TexelSurface,
+        TexelVolume,
+    };
     pub use crate::wind::Wind;
     pub use crate::{VerdurePlugin, VerdureSystems};
 }
@@ -69,6 +73,8 @@ impl PluginGroup for VerdurePlugin {
             .add(frusta::FrustaPlugin)
             .add(wind::WindPlugin)
             .add(slicing::SlicingPlugin)
+            .add(texel::TexelVolumePlugin)
+            .add(texel::TexelPlugin)
     }
 }
 

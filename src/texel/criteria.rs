@@ -69,6 +69,29 @@ pub fn count_exponent(slices: f32, most: u32) -> u32 {
     exponent
 }
 
+/// The last part of the way to the next count, and to the next direction, in which one fades into the other.
+pub const FADE: f32 = 0.25;
+
+/// The share of twice as many slices that fades in before they are needed, where 2^`exponent` still do: 0 to 1. So nothing
+/// pops when the count doubles, and there are never fewer slices than asked for.
+pub fn finer_share(slices: f32, exponent: u32, most: u32) -> f32 {
+    if 1u32 << (exponent + 1) > most {
+        return 0.0;
+    }
+    let used = slices / (1u32 << exponent) as f32;
+    ((used - (1.0 - FADE)) / FADE).clamp(0.0, 1.0)
+}
+
+/// The share of the second best direction, 0 to ½, given the costs of the best and of the second: ½ where both are alike, so
+/// that nothing pops when they change places.
+pub fn second_share(best: f32, second: f32) -> f32 {
+    if second <= 0.0 {
+        return 0.5;
+    }
+    let alike = best / second;
+    0.5 * ((alike - (1.0 - FADE)) / FADE).clamp(0.0, 1.0)
+}
+
 /// How many slices to draw: as many as either criterion asks for, the one that is content with fewer, rounded up to a
 /// power of two of at most `most`. Slices that are close enough on screen need not be closer, however deep one sees.
 pub fn slice_count(for_depth: f32, for_pixels: f32, most: u32) -> u32 {
@@ -169,6 +192,21 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn shares_go_on_where_counts_and_directions_change() {
+        for exponent in 0..5 {
+            let switch = (1 << exponent) as f32;
+            assert_eq!(finer_share(switch, exponent, 64), 1.0);
+            assert_eq!(finer_share(switch * 1.001, exponent + 1, 64), 0.0);
+            assert_eq!(finer_share(switch * (1.0 - FADE), exponent, 64), 0.0);
+        }
+        assert_eq!(finer_share(64.0, 6, 64), 0.0, "there are no more");
+        assert_eq!(second_share(2.0, 2.0), 0.5);
+        assert_eq!(second_share(0.0, 0.0), 0.5);
+        assert_eq!(second_share(1.0 - FADE, 1.0), 0.0);
+        assert_eq!(second_share(0.1, f32::INFINITY), 0.0);
     }
 
     #[test]

@@ -130,7 +130,8 @@ fn read(mesh: &Mesh, material: &StandardMaterial) -> Result<Shape, ShapeMeshErro
     Ok(shape)
 }
 
-fn triangles(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, ShapeMeshError> {
+/// The triangles of a mesh of so many vertices.
+pub(super) fn triangles(mesh: &Mesh, vertices: usize) -> Result<Vec<[u32; 3]>, ShapeMeshError> {
     let indices: Vec<u32> = match mesh.try_indices_option()? {
         Some(Indices::U16(indices)) => indices.iter().copied().map(u32::from).collect(),
         Some(Indices::U32(indices)) => indices.clone(),

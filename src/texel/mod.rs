@@ -39,6 +39,7 @@ pub mod build;
 mod choose;
 pub mod color;
 pub mod criteria;
+mod draw;
 mod error;
 pub mod facet;
 pub mod file;
@@ -55,6 +56,10 @@ pub use axis::SliceAxis;
 pub use bake::BakedLight;
 pub use choose::{
     Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose, choose_all,
+};
+pub use draw::{
+    ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, MAX_SLOTS, TexelCycle, TexelHeights, TexelMaterial,
+    TexelPlugin, TexelSettings, TexelSlices, TexelSurface, TexelSurfaceError,
 };
 pub use error::TexelError;
 pub use from_mesh::ShapeMeshError;

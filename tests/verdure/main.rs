@@ -18,6 +18,7 @@ mod skeleton_files;
 mod skeletons;
 mod skinned;
 mod slicing;
+mod texel;
 mod twins;
 mod view;
 mod views;

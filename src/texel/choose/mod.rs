@@ -1,6 +1,7 @@
 //! The direction and the number of slices of every facet, for one view (§4.2, §4.3).
 
 use bevy::math::{UVec3, Vec3, Vec4};
+use bevy::reflect::{Reflect, std_traits::ReflectDefault};
 
 use super::axis::SliceAxis;
 use super::criteria::{
@@ -49,7 +50,8 @@ pub struct TexelView {
 }
 
 /// By what the direction of slices is chosen.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum DirectionRule {
     /// By h·tan(a), how far aside a slice stands from the next: the paper's, for one e of all directions.
     #[default]
@@ -60,7 +62,8 @@ pub enum DirectionRule {
 }
 
 /// What may be seen of slices.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq)]
 pub struct TexelQuality {
     /// By what the direction is chosen.
     pub direction: DirectionRule,
@@ -98,7 +101,9 @@ pub enum Choice {
     },
 }
 
-/// Chooses for one facet, at its centre: deformations are taken to be small.
+/// Chooses for one facet: the direction at its centre, for deformations are taken to be small, and the number of slices by
+/// the corner of the prism that is seen at the largest angle from them. (The paper takes the angle at the centre too, which
+/// serves facets that are small on screen; right below the eye it would show a large one by a single slice.)
 ///
 /// Facets that fail their [`check`](Facet::check) are left out.
 pub fn choose(
@@ -132,7 +137,6 @@ pub fn choose(
     };
     let frame = TexelFrame::new(facet, middle, 0.5);
     let mut c = [0.0; 3];
-    let mut l = [0.0; 3];
     let mut h = [0.0; 3];
     let mut e = [0.0; 3];
     let mut step = [0.0; 3];
@@ -140,7 +144,6 @@ pub fn choose(
         let i = axis.index();
         let (normal, length) = frame.normal_and_length(axis);
         c[i] = normal.dot(direction);
-        l[i] = length;
         h[i] = length / measure.most[i] as f32;
         e[i] = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
         step[i] = match quality.direction {
@@ -150,24 +153,62 @@ pub fn choose(
     }
     let i = choose_direction(c, step);
     let axis = SliceAxis::ALL[i];
-    let for_depth = slices_for_depth(l[i], tan_view_angle(c[i]), quality.depth * e[i]);
     // The nearest that the facet can be, so that no part of it is drawn too coarsely. All of an orthographic view is
     // at one.
     let z = match view.direction {
         Some(_) => 1.0,
         None => view.eye.distance(centre) - radius,
     };
-    let for_pixels = if z > 0.0 {
-        slices_for_pixels(l[i], sin_view_angle(c[i]), z, view.pixels, quality.pixels)
-    } else {
-        f32::INFINITY
-    };
+    let slices = slices_needed(facet, axis, measure, view, quality, c[i], z);
     Choice::Slices {
         axis,
-        exponent: count_exponent(for_depth.min(for_pixels), measure.most[i]) as u8,
+        exponent: count_exponent(slices, measure.most[i]) as u8,
         along: c[i] > 0.0,
     }
 }
+
+/// How many slices the corners of the prism need, of which each has a frame of its own where height vectors differ. `c` is
+/// the cosine at the centre; `z` is the least distance.
+fn slices_needed(
+    facet: &Facet,
+    axis: SliceAxis,
+    measure: &VolumeMeasure,
+    view: &TexelView,
+    quality: &TexelQuality,
+    c: f32,
+    z: f32,
+) -> f32 {
+    let (mut for_depth, mut for_pixels) = (0.0f32, 0.0f32);
+    for w in [0.0, 1.0] {
+        for (b, corner) in [Vec3::X, Vec3::Y, Vec3::Z]
+            .into_iter()
+            .zip(facet.corners(w))
+        {
+            let frame = TexelFrame::new(facet, b, w);
+            let (normal, l) = frame.normal_and_length(axis);
+            let to_corner = view.direction.unwrap_or(corner - view.eye);
+            // Seen from the other side than the centre, slices are seen along themselves in between.
+            let side = if c < 0.0 { -1.0 } else { 1.0 };
+            let cosine = normal.dot(to_corner) * side / to_corner.length().max(LEAST_LENGTH);
+            let cosine = cosine.max(0.0);
+            let e = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
+            let d = quality.depth * e;
+            for_depth = for_depth.max(slices_for_depth(l, tan_view_angle(cosine), d));
+            let sin_a = sin_view_angle(cosine);
+            for_pixels =
+                for_pixels.max(slices_for_pixels(l, sin_a, z, view.pixels, quality.pixels));
+        }
+    }
+    // An eye in reach of the prism sees slices however far apart.
+    if z > 0.0 {
+        for_depth.min(for_pixels)
+    } else {
+        for_depth
+    }
+}
+
+/// In place of the length of a vector that has none.
+const LEAST_LENGTH: f32 = 1e-30;
 
 /// Chooses for many facets, without allocating.
 ///

@@ -44,7 +44,9 @@ fn chosen(direction: Vec3, distance: f32) -> (SliceAxis, u32) {
 
 #[test]
 fn from_above_one_slice_will_do_and_aslant_there_are_more() {
-    assert_eq!(chosen(Vec3::NEG_Z, 3.0), (SliceAxis::W, 1));
+    assert_eq!(chosen(Vec3::NEG_Z, 60.0), (SliceAxis::W, 1));
+    // A corner 0.745 aside, 2.875 away, needs 0.25 · 0.259/0.025 = 2.6.
+    assert_eq!(chosen(Vec3::NEG_Z, 3.0), (SliceAxis::W, 4));
     let mut last = 0;
     for degrees in [10.0, 30.0, 50.0, 63.0f32] {
         let (sin, cos) = degrees.to_radians().sin_cos();
@@ -70,7 +72,11 @@ fn by_quality_a_thick_direction_wins_over_a_fine_one() {
     // Upright slices are four times further apart, but contours are ten times as thick there.
     let mut measure = measure();
     measure.thickness.narrowest = Vec3::new(0.2, 0.2, 0.02);
-    let view = looking(Vec3::new(1.0, 0.0, -1.0), 1.5);
+    // So far away that angles hardly differ over the facet, through a strong lens.
+    let view = TexelView {
+        pixels: 90_000.0,
+        ..looking(Vec3::new(1.0, 0.0, -1.0), 30.0)
+    };
     let chosen = |direction| {
         let quality = TexelQuality {
             direction,
@@ -82,7 +88,7 @@ fn by_quality_a_thick_direction_wins_over_a_fine_one() {
         Choice::Slices { axis, exponent, .. } => (axis, exponent),
         Choice::LeftOut => panic!("it is in view"),
     };
-    // N ≥ L·tan(45°)/(e/2): 0.25/0.01 and 1/0.1.
+    // N ≥ L·tan(45°)/(e/2): 0.25/0.01 and 1/0.1, and a twentieth more for corners.
     assert_eq!(
         axis_and_exponent(chosen(DirectionRule::StepAside)),
         (SliceAxis::W, 5)
@@ -148,9 +154,9 @@ fn what_is_out_of_view_or_broken_is_left_out() {
 }
 
 #[test]
-fn an_eye_within_the_texel_gets_what_the_depth_asks_for() {
-    // tan(a) = 1.044/0.5, so that L·tan(a)/d = 0.25 · 2.088/0.025 = 20.9.
-    assert_eq!(chosen(Vec3::new(1.0, 0.3, -0.5), 1e-3), (SliceAxis::W, 32));
+fn an_eye_within_the_texel_gets_all_there_is() {
+    // Corners lie on both sides of the slice through the eye.
+    assert_eq!(chosen(Vec3::new(1.0, 0.3, -0.5), 1e-3), (SliceAxis::W, 64));
     let view = TexelView {
         eye: facet().point(Vec3::splat(1.0 / 3.0), 0.5),
         ..looking(Vec3::X, 1.0)

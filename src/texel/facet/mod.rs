@@ -5,9 +5,10 @@
 //! Σ bᵢ·(Aᵢ + w·Hᵢ). Texture coordinates are Σ bᵢ·(uᵢ, vᵢ), and repeat with 1, so that a facet may carry a part of a
 //! texel or many.
 //!
-//! `frame` has the directions in which u, v and w grow there; `slicing` cuts the prism into slices; `surface` makes
+//! `bend` has height vectors in the wind; `frame` has the directions in which u, v and w grow there; `slicing` cuts the prism into slices; `surface` makes
 //! facets of a mesh.
 
+mod bend;
 mod frame;
 mod slicing;
 mod surface;
@@ -17,6 +18,7 @@ mod tests;
 use bevy::math::{Vec2, Vec3};
 use thiserror::Error;
 
+pub use bend::bend;
 pub use frame::TexelFrame;
 pub use slicing::{slice_line, slice_position, slice_range};
 pub use surface::{Surface, SurfaceError, SurfaceFacets};

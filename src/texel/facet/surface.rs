@@ -25,6 +25,8 @@ pub struct Surface {
 pub struct SurfaceFacets {
     /// What carries texels.
     pub facets: Vec<Facet>,
+    /// Unit normals of the surface at the vertices of each facet, for shading; zero where there is none.
+    pub normals: Vec<[Vec3; 3]>,
     /// The triangle of each facet.
     pub triangles: Vec<u32>,
     /// Triangles that carry none, and why.
@@ -75,14 +77,16 @@ impl Surface {
     /// When lists don't agree, or there are no texture coordinates.
     pub fn facets(&self, thickness: f32) -> Result<SurfaceFacets, SurfaceError> {
         self.check()?;
+        let mut normals = if self.normals.is_empty() {
+            self.vertex_normals()
+        } else {
+            self.normals.clone()
+        };
+        for normal in &mut normals {
+            *normal = normal.normalize_or_zero();
+        }
         let heights = if self.heights.is_empty() {
-            let normals = if self.normals.is_empty() {
-                self.vertex_normals()
-            } else {
-                self.normals.clone()
-            };
-            let height = |normal: Vec3| normal.normalize_or_zero() * thickness;
-            normals.into_iter().map(height).collect()
+            normals.iter().map(|&normal| normal * thickness).collect()
         } else {
             self.heights.clone()
         };
@@ -97,6 +101,7 @@ impl Surface {
             match facet.check() {
                 Ok(()) => {
                     found.facets.push(facet);
+                    found.normals.push(vertices.map(|vertex| normals[vertex]));
                     found.triangles.push(index);
                 }
                 Err(fault) => found.left_out.push((index, fault)),
@@ -178,6 +183,8 @@ mod tests {
         assert_eq!(heights(&surface), [Vec3::new(0.0, 0.3, 0.4); 3]);
         surface.heights = vec![Vec3::new(0.1, 0.0, 2.0); 4];
         assert_eq!(heights(&surface), [Vec3::new(0.1, 0.0, 2.0); 3]);
+        let normals = surface.facets(0.5).unwrap().normals;
+        assert_eq!(normals, [[Vec3::new(0.0, 0.6, 0.8); 3]; 2]);
     }
 
     #[test]

@@ -1,0 +1,160 @@
+//! Surfaces covered with volumes: the paper's scenes (§6), and a meadow.
+//!
+//! ```text
+//! cargo run --example texels -- meadow
+//! cargo run --example texels -- pear --headless --size 512x384 --frames 1 --out out
+//! ```
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../bake_texel/patterns.rs"]
+mod patterns;
+mod scene;
+mod surfaces;
+
+use bevy::core_pipeline::prepass::DepthPrepass;
+use bevy::light::NotShadowCaster;
+use bevy::prelude::*;
+use bevy_verdure::lab::CommonArgs;
+use bevy_verdure::prelude::*;
+use clap::Parser;
+
+use scene::Scene;
+
+/// Shows texels.
+#[derive(Parser)]
+struct Args {
+    /// What to show.
+    #[arg(value_enum)]
+    scene: Scene,
+    /// Where the eye stands, instead of where the scene is best seen from.
+    #[arg(long, value_parser = bevy_verdure::lab::parse_vec3, allow_hyphen_values = true, value_name = "X,Y,Z")]
+    eye: Option<Vec3>,
+    /// What the eye looks at.
+    #[arg(long, value_parser = bevy_verdure::lab::parse_vec3, allow_hyphen_values = true, value_name = "X,Y,Z")]
+    at: Option<Vec3>,
+    /// d: how deep one may see into slices, as a share of the narrowest thickness.
+    #[arg(long, default_value_t = TexelQuality::default().depth)]
+    depth: f32,
+    /// p: pixels between slices that are close enough for any depth.
+    #[arg(long, default_value_t = TexelQuality::default().pixels)]
+    pixels: f32,
+    /// The most slices a texel.
+    #[arg(long, default_value_t = TexelSettings::default().most_slices)]
+    most: u32,
+    /// Wind along x, in metres a second.
+    #[arg(long, default_value_t = 4.0, allow_hyphen_values = true)]
+    wind: f32,
+    /// Let texels cast no shadows.
+    #[arg(long)]
+    unshadowed: bool,
+    /// Show the volume's colours as they are.
+    #[arg(long)]
+    unlit: bool,
+    /// Draw a depth prepass first, so that no pixel is lit twice.
+    #[arg(long)]
+    prepass: bool,
+    /// Turn multisampling off.
+    #[arg(long)]
+    plain: bool,
+    /// Turns of the camera a minute.
+    #[arg(long, default_value_t = 1.0, allow_hyphen_values = true)]
+    turns: f32,
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+fn main() -> std::process::ExitCode {
+    let args = Args::parse();
+    common::exit(run(&args))
+}
+
+fn run(args: &Args) -> Result<(), String> {
+    let scene = args.scene;
+    let settings = TexelSettings {
+        quality: TexelQuality {
+            depth: args.depth,
+            pixels: args.pixels,
+            ..default()
+        },
+        most_slices: args.most,
+        flexibility: scene.flexibility(),
+        lit: !args.unlit,
+        ..default()
+    };
+    let volume = scene.volume()?;
+    let mut stage = scene.stage();
+    stage.eye = args.eye.unwrap_or(stage.eye);
+    stage.at = args.at.unwrap_or(stage.at);
+    let (turns, unshadowed) = (args.turns, args.unshadowed);
+    let wind = Wind::new(Vec3::X * args.wind);
+    let (prepass, plain) = (args.prepass, args.plain);
+    let title = format!("texels_{}", scene.name());
+    common::run(&title, &args.common, move |app| {
+        app.add_plugins(stage)
+            .insert_resource(wind)
+            .add_systems(Update, wave)
+            .insert_resource(common::Orbit {
+                centre: stage.centre,
+                speed: turns,
+            })
+            .add_systems(
+                Startup,
+                move |mut commands: Commands,
+                      mut meshes: ResMut<Assets<Mesh>>,
+                      mut volumes: ResMut<Assets<TexelVolume>>,
+                      mut materials: ResMut<Assets<StandardMaterial>>| {
+                    let volume = volumes.add(volume.clone());
+                    for surface in scene.surfaces() {
+                        let mut entity = commands.spawn((
+                            Mesh3d(meshes.add(surface.mesh)),
+                            TexelSurface {
+                                volume: volume.clone(),
+                                thickness: surface.thickness,
+                            },
+                            settings,
+                            surface.place,
+                        ));
+                        if scene == Scene::Flag {
+                            entity.insert(LiveTexels);
+                        }
+                        if unshadowed {
+                            entity.insert(NotShadowCaster);
+                        }
+                        if let Some(color) = surface.color {
+                            entity.insert(MeshMaterial3d(materials.add(StandardMaterial {
+                                base_color: color,
+                                perceptual_roughness: 1.0,
+                                ..default()
+                            })));
+                        }
+                    }
+                },
+            )
+            .add_systems(
+                PostStartup,
+                move |mut commands: Commands, camera: Single<Entity, With<common::MainCamera>>| {
+                    let mut camera = commands.entity(*camera);
+                    if prepass {
+                        camera.insert(DepthPrepass);
+                    }
+                    if plain {
+                        camera.insert(Msaa::Off);
+                    }
+                },
+            );
+    })
+}
+
+/// Lets live surfaces wave.
+fn wave(
+    time: Res<Time>,
+    flags: Query<&Mesh3d, With<LiveTexels>>,
+    mut meshes: ResMut<Assets<Mesh>>,
+) {
+    for flag in &flags {
+        if let Some(mut mesh) = meshes.get_mut(flag) {
+            *mesh = surfaces::flag(time.elapsed_secs());
+        }
+    }
+}

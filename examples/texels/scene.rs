@@ -1,0 +1,177 @@
+//! The scenes: which volume, on what, seen from where.
+
+use bevy::prelude::*;
+use bevy_verdure::texel::TexelVolume;
+use bevy_verdure::texel::build::Spreading;
+use bevy_verdure::texel::silent;
+use clap::ValueEnum;
+
+use crate::common::stage::Stage;
+use crate::patterns::Pattern;
+use crate::surfaces;
+
+/// What there is to see.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Scene {
+    /// A texel of 64³, and two that overlap (§6, Figure 10).
+    Pear,
+    /// 96 of them on a sphere of 192 triangles (Figure 11, left).
+    Pears,
+    /// 16 bushes of 3,500 triangles (Figure 11, right).
+    Bushes,
+    /// A texel of a height field, straight and bent by its height vectors (Figure 13).
+    Noise,
+    /// 96 of them on a sphere of 192 triangles (Figure 15).
+    Sphere,
+    /// 100 of them on a jittered plane of 200 triangles (Figure 16).
+    Plane,
+    /// A furry flag, of which all vertices move.
+    Flag,
+    /// A ball of fur in the wind.
+    Fur,
+    /// A hill of grass in the wind.
+    Meadow,
+}
+
+/// A surface to be covered.
+pub struct Covered {
+    pub mesh: Mesh,
+    pub thickness: f32,
+    pub place: Transform,
+    /// Of the surface itself, if it is drawn.
+    pub color: Option<Color>,
+}
+
+impl Scene {
+    /// Its name on the command line.
+    pub fn name(self) -> String {
+        self.to_possible_value()
+            .map_or_else(String::new, |value| value.get_name().into())
+    }
+
+    /// What surfaces are covered with.
+    pub fn volume(self) -> Result<TexelVolume, String> {
+        let pattern = match self {
+            Self::Pear | Self::Pears => Pattern::Pear,
+            Self::Bushes => Pattern::Bush,
+            Self::Noise | Self::Sphere | Self::Plane => Pattern::Noise,
+            Self::Flag | Self::Fur => Pattern::Fur,
+            Self::Meadow => Pattern::Grass,
+        };
+        let built = pattern.build(pattern.size(), Spreading::default(), &silent);
+        Ok(built.map_err(|error| error.to_string())?.volume.into())
+    }
+
+    /// Where it is seen from.
+    pub fn stage(self) -> Stage {
+        let (eye, at) = match self {
+            Self::Pear => (Vec3::new(0.6, 1.6, 3.2), Vec3::new(0.0, 0.45, 0.0)),
+            Self::Pears | Self::Sphere | Self::Fur => (Vec3::new(0.0, 1.9, 4.6), Vec3::Y * 1.3),
+            Self::Flag => (Vec3::new(0.4, 1.9, 3.4), Vec3::new(0.0, 1.3, 0.0)),
+            Self::Bushes => (Vec3::new(0.0, 2.2, 5.6), Vec3::Y * 0.2),
+            Self::Noise => (Vec3::new(0.0, 1.5, 3.0), Vec3::Y * 0.1),
+            Self::Plane => (Vec3::new(0.0, 2.4, 6.5), Vec3::ZERO),
+            Self::Meadow => (Vec3::new(0.0, 1.8, 7.0), Vec3::new(0.0, 0.9, 0.0)),
+        };
+        Stage {
+            eye,
+            at,
+            centre: at.with_x(0.0).with_z(0.0),
+            shadows: 20.0,
+            haze: (30.0, 120.0),
+        }
+    }
+
+    /// How far its texels bend in the wind.
+    pub const fn flexibility(self) -> f32 {
+        match self {
+            Self::Meadow | Self::Fur => 0.03,
+            _ => 0.0,
+        }
+    }
+
+    /// What is covered.
+    pub fn surfaces(self) -> Vec<Covered> {
+        let covered = |mesh, thickness, place| Covered {
+            mesh,
+            thickness,
+            place,
+            color: None,
+        };
+        match self {
+            Self::Pear => [(-0.6, 0.0), (0.55, 0.0), (0.83, 0.12)]
+                .map(|(x, z)| {
+                    let place = Transform::from_xyz(x, 0.0, z);
+                    covered(surfaces::grid(1, 1, Vec2::splat(0.9)), 0.9, place)
+                })
+                .into(),
+            Self::Pears => vec![Covered {
+                color: Some(Color::srgb(0.25, 0.3, 0.12)),
+                ..covered(
+                    surfaces::sphere(1.0),
+                    0.45,
+                    Transform::from_xyz(0.0, 1.3, 0.0),
+                )
+            }],
+            Self::Bushes => vec![Covered {
+                color: Some(Color::srgb(0.4, 0.32, 0.2)),
+                ..covered(
+                    surfaces::grid(4, 4, Vec2::splat(4.0)),
+                    0.8,
+                    Transform::from_xyz(0.0, 0.01, 0.0),
+                )
+            }],
+            Self::Noise => {
+                let flat = || surfaces::grid(1, 1, Vec2::splat(1.0));
+                let lean = |_| Vec3::new(0.35, 0.3, 0.0);
+                let spread = |at: Vec3| Vec3::new(at.x * 0.7, 0.35, at.z * 0.7);
+                vec![
+                    covered(flat(), 0.3, Transform::from_xyz(-1.25, 0.02, 0.0)),
+                    covered(
+                        surfaces::with_heights(flat(), lean),
+                        0.3,
+                        Transform::from_xyz(0.0, 0.02, 0.0),
+                    ),
+                    covered(
+                        surfaces::with_heights(flat(), spread),
+                        0.3,
+                        Transform::from_xyz(1.3, 0.02, 0.0),
+                    ),
+                ]
+            }
+            Self::Sphere => vec![Covered {
+                color: Some(Color::srgb(0.2, 0.16, 0.12)),
+                ..covered(
+                    surfaces::sphere(1.0),
+                    0.2,
+                    Transform::from_xyz(0.0, 1.3, 0.0),
+                )
+            }],
+            Self::Plane => vec![covered(
+                surfaces::jittered(10, 10, Vec2::splat(8.0)),
+                0.25,
+                Transform::from_xyz(0.0, 0.05, 0.0),
+            )],
+            Self::Flag => vec![Covered {
+                color: Some(Color::srgb(0.10, 0.06, 0.03)),
+                ..covered(
+                    surfaces::flag(0.0),
+                    0.05,
+                    Transform::from_xyz(0.0, 1.3, 0.0),
+                )
+            }],
+            Self::Fur => vec![Covered {
+                color: Some(Color::srgb(0.10, 0.06, 0.03)),
+                ..covered(
+                    surfaces::sphere(1.0),
+                    0.25,
+                    Transform::from_xyz(0.0, 1.3, 0.0),
+                )
+            }],
+            Self::Meadow => vec![Covered {
+                color: Some(Color::srgb(0.10, 0.13, 0.04)),
+                ..covered(surfaces::hill(12, 12.0), 0.35, Transform::IDENTITY)
+            }],
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The surfaces that are covered.
+
+use core::f32::consts::{PI, TAU};
+
+use bevy::asset::RenderAssetUsages;
+use bevy::mesh::{Indices, PrimitiveTopology, VertexAttributeValues};
+use bevy::prelude::*;
+use bevy_verdure::plants::Dice;
+use bevy_verdure::texel::ATTRIBUTE_HEIGHT_VECTOR;
+
+/// A mesh of vertices in rows and columns, of which each square carries a texel.
+fn lattice(columns: u32, rows: u32, vertex: impl Fn(u32, u32) -> (Vec3, Vec3)) -> Mesh {
+    let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
+    for row in 0..=rows {
+        for column in 0..=columns {
+            let (position, normal) = vertex(column, row);
+            positions.push(position);
+            normals.push(normal);
+            uvs.push(Vec2::new(column as f32, row as f32));
+        }
+    }
+    let mut indices = Vec::new();
+    for row in 0..rows {
+        for column in 0..columns {
+            let a = row * (columns + 1) + column;
+            let b = a + columns + 1;
+            indices.extend([a, a + 1, b + 1, a, b + 1, b]);
+        }
+    }
+    Mesh::new(
+        PrimitiveTopology::TriangleList,
+        RenderAssetUsages::default(),
+    )
+    .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
+    .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, normals)
+    .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, uvs)
+    .with_inserted_indices(Indices::U32(indices))
+}
+
+/// A place on the ground: columns go to the right, rows away.
+fn ground(columns: u32, rows: u32, size: Vec2, column: u32, row: u32) -> Vec3 {
+    Vec3::new(
+        (column as f32 / columns as f32 - 0.5) * size.x,
+        0.0,
+        (0.5 - row as f32 / rows as f32) * size.y,
+    )
+}
+
+/// A flat rectangle on the ground.
+pub fn grid(columns: u32, rows: u32, size: Vec2) -> Mesh {
+    lattice(columns, rows, |column, row| {
+        (ground(columns, rows, size, column, row), Vec3::Y)
+    })
+}
+
+/// The same with vertices that are moved at random.
+pub fn jittered(columns: u32, rows: u32, size: Vec2) -> Mesh {
+    let mut dice = Dice::new(7);
+    let jitter: Vec<Vec3> = (0..(columns + 1) * (rows + 1))
+        .map(|_| {
+            Vec3::new(
+                dice.jitter(0.12),
+                dice.between(0.0, 0.45),
+                dice.jitter(0.12),
+            )
+        })
+        .collect();
+    lattice(columns, rows, |column, row| {
+        let moved = jitter[(row * (columns + 1) + column) as usize];
+        (ground(columns, rows, size, column, row) + moved, Vec3::Y)
+    })
+}
+
+/// A sphere of 192 triangles, 12 by 8 squares of two, of which the lowest and the highest lose one each.
+pub fn sphere(radius: f32) -> Mesh {
+    lattice(12, 8, |column, row| {
+        let turn = column as f32 / 12.0 * TAU;
+        // The poles are as good as points, and yet triangles.
+        let rise = (row as f32 / 8.0).clamp(0.01, 0.99) * PI;
+        let out = Vec3::new(
+            rise.sin() * turn.sin(),
+            -rise.cos(),
+            rise.sin() * turn.cos(),
+        );
+        (out * radius, out)
+    })
+}
+
+/// A hill in a meadow, a texel a metre.
+pub fn hill(squares: u32, size: f32) -> Mesh {
+    let height = |at: Vec2| {
+        1.1 * (-at.length_squared() / 8.0).exp() + 0.12 * (at.x * 0.9).sin() * (at.y * 0.7).cos()
+    };
+    lattice(squares, squares, |column, row| {
+        let at = ground(squares, squares, Vec2::splat(size), column, row);
+        let rise = |x: f32, z: f32| height(Vec2::new(at.x + x, at.z + z));
+        let slope = Vec2::new(
+            rise(0.01, 0.0) - rise(-0.01, 0.0),
+            rise(0.0, 0.01) - rise(0.0, -0.01),
+        ) / 0.02;
+        (
+            at.with_y(rise(0.0, 0.0)),
+            Vec3::new(-slope.x, 1.0, -slope.y).normalize(),
+        )
+    })
+}
+
+/// A mesh with height vectors of its own.
+pub fn with_heights(mut mesh: Mesh, height: impl Fn(Vec3) -> Vec3) -> Mesh {
+    if let Some(VertexAttributeValues::Float32x3(positions)) =
+        mesh.attribute(Mesh::ATTRIBUTE_POSITION)
+    {
+        let heights: Vec<Vec3> = positions.iter().map(|&at| height(at.into())).collect();
+        mesh.insert_attribute(ATTRIBUTE_HEIGHT_VECTOR, heights);
+    }
+    mesh
+}
+
+/// A flag in the wind at a time, in seconds: 8 by 5 squares, held at its left side.
+pub fn flag(time: f32) -> Mesh {
+    let place = |x: f32, y: f32| {
+        let wave = (5.0 * x - 6.0 * time + 0.8 * y).sin() * 0.16 * x;
+        Vec3::new(x - 0.8, y - 0.5, wave)
+    };
+    lattice(8, 5, |column, row| {
+        let (x, y) = (column as f32 * 0.2, row as f32 * 0.2);
+        let along = place(x + 0.01, y) - place(x - 0.01, y);
+        let up = place(x, y + 0.01) - place(x, y - 0.01);
+        (place(x, y), along.cross(up).normalize())
+    })
+}

@@ -1,0 +1,167 @@
+//! What a game's author puts on an entity.
+
+use bevy::mesh::{MeshVertexAttribute, VertexFormat};
+use bevy::prelude::*;
+
+use super::super::asset::TexelVolume;
+use super::super::choose::TexelQuality;
+
+/// Height vectors of a mesh (§2.1): a mesh attribute, in the mesh's space, from each vertex to the top of the texels
+/// there. Where a mesh has none, they are as long as a surface's [`thickness`](TexelSurface::thickness) and follow
+/// the normals.
+pub const ATTRIBUTE_HEIGHT_VECTOR: MeshVertexAttribute = MeshVertexAttribute::new(
+    "Vertex_Height_Vector",
+    0x5645_5244_5552_4503,
+    VertexFormat::Float32x3,
+);
+
+/// Covers the mesh of the same entity with a volume: grass, fur, pebbles, a far forest.
+///
+/// The entity's [`Mesh3d`] says where: its triangles, the sides that carry texels turned counterclockwise to the eye; its
+/// texture coordinates, of which each square from whole numbers to whole numbers is one texel; and its height vectors
+/// ([`ATTRIBUTE_HEIGHT_VECTOR`]), or its normals. The mesh must be kept in the main world (as by
+/// `RenderAssetUsages::default()`). It is drawn as ever, if it has a material; so give it the colour of the ground.
+///
+/// Triangles without area, or whose height vectors lead through the surface, carry no texels.
+///
+/// ```
+/// # use bevy::prelude::*;
+/// # use bevy_verdure::texel::*;
+/// fn sow(mut commands: Commands, mut meshes: ResMut<Assets<Mesh>>, server: Res<AssetServer>) {
+///     let lawn = Plane3d::default().mesh().size(4.0, 4.0).subdivisions(3).build();
+///     commands.spawn((
+///         Mesh3d(meshes.add(lawn)),
+///         TexelSurface {
+///             volume: server.load("grass.texel.ron"),
+///             thickness: 0.3,
+///         },
+///     ));
+/// }
+/// ```
+#[derive(Component, Clone, Debug, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+#[require(TexelSettings, Transform, Visibility)]
+pub struct TexelSurface {
+    /// What it is covered with.
+    pub volume: Handle<TexelVolume>,
+    /// Length of the height vectors where the mesh has none, in the mesh's units.
+    pub thickness: f32,
+}
+
+impl Default for TexelSurface {
+    fn default() -> Self {
+        Self {
+            volume: Handle::default(),
+            thickness: 1.0,
+        }
+    }
+}
+
+/// Height vectors of one [`TexelSurface`], one for each vertex of its mesh, in the mesh's space: they take the place of those
+/// of the mesh. Change them to move the texels, as a hand does that strokes fur; what changed is uploaded in the same frame.
+#[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct TexelHeights(pub Vec<Vec3>);
+
+/// Marks a [`TexelSurface`] whose mesh is changed in most frames, such as a flag: the mesh is read in every frame, so that its
+/// texels do not lag one frame behind, as they do after a single edit.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct LiveTexels;
+
+/// Shows volumes one after the other on a [`TexelSurface`], as in a cartoon (§5). Volumes stay on the GPU as long as they are
+/// named here; those that are not loaded yet are left out.
+#[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct TexelCycle {
+    /// The volumes, in order.
+    pub volumes: Vec<Handle<TexelVolume>>,
+    /// Volumes a second; backwards if negative.
+    pub rate: f32,
+}
+
+impl TexelCycle {
+    /// Which volume is shown at a time, in seconds; none if there is none, or the rate is no number.
+    pub fn at(&self, seconds: f32) -> Option<&Handle<TexelVolume>> {
+        let number = (seconds * self.rate).floor();
+        let count = self.volumes.len() as f32;
+        let index = number.rem_euclid(count);
+        if index.is_finite() {
+            self.volumes.get(index as usize)
+        } else {
+            None
+        }
+    }
+}
+
+/// How a [`TexelSurface`] is drawn. Filled in where it has none; may be changed at any time.
+#[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct TexelSettings {
+    /// What may be seen of slices; decides how many are drawn.
+    pub quality: TexelQuality,
+    /// The same for the views of lights, whose pixels are those of a shadow map. Its `direction` is not used.
+    pub shadows: TexelQuality,
+    /// The most slices a texel in any direction, rounded down to a power of two. Memory, and the slots that are kept
+    /// ready for slices on each facet, grow with it.
+    pub most_slices: u32,
+    /// Whether the scene lights the texels; else they have the colours of the volume.
+    pub lit: bool,
+    /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`.
+    pub roughness: f32,
+    /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`.
+    pub reflectance: f32,
+    /// How far the top moves in the [`Wind`](crate::wind::Wind), in heights, for each metre a second: 0 is stiff, 0.03 is
+    /// grass. Height vectors bend, and keep their length.
+    pub flexibility: f32,
+}
+
+impl Default for TexelSettings {
+    fn default() -> Self {
+        Self {
+            quality: TexelQuality::default(),
+            // No gaps, and no more: of what casts a shadow nobody sees the inside.
+            shadows: TexelQuality {
+                depth: 1.0,
+                pixels: 2.0,
+                ..Default::default()
+            },
+            most_slices: 256,
+            lit: true,
+            roughness: 0.8,
+            reflectance: 0.3,
+            flexibility: 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy::asset::uuid::Uuid;
+
+    use super::*;
+
+    #[test]
+    fn volumes_come_one_after_the_other_and_again() {
+        let volumes: Vec<_> = (0..3)
+            .map(|i| Handle::Uuid(Uuid::from_u128(i), core::marker::PhantomData))
+            .collect();
+        let mut cycle = TexelCycle {
+            volumes: volumes.clone(),
+            rate: 2.0,
+        };
+        let shown = |cycle: &TexelCycle, seconds| cycle.at(seconds).cloned();
+        for (seconds, index) in [(0.0, 0), (0.49, 0), (0.5, 1), (1.1, 2), (1.6, 0)] {
+            assert_eq!(
+                shown(&cycle, seconds),
+                Some(volumes[index].clone()),
+                "{seconds}"
+            );
+        }
+        cycle.rate = -2.0;
+        assert_eq!(shown(&cycle, 0.1), Some(volumes[2].clone()));
+        cycle.rate = f32::NAN;
+        assert_eq!(cycle.at(1.0), None);
+        assert_eq!(TexelCycle::default().at(1.0), None);
+    }
+}

@@ -1,0 +1,72 @@
+//! A volume's slices as texture arrays: one of colours and one of normals for each direction, in which the sets of 1, 2, 4
+//! and so on slices follow one another, so that slice k of N is layer N − 1 + k.
+
+use bevy::asset::RenderAssetUsages;
+use bevy::image::{Image, ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
+use bevy::prelude::default;
+use bevy::render::render_resource::{
+    Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
+};
+
+use super::super::axis::SliceAxis;
+use super::super::slice_sets::{SliceLevel, SliceSet, SliceSets};
+
+/// The images of colours and of normals for u, v and w.
+pub(crate) fn slice_images(sets: &SliceSets) -> [[Image; 2]; 3] {
+    SliceAxis::ALL.map(|axis| {
+        let sets: Vec<&SliceSet> = sets.iter().filter(|set| set.axis == axis).collect();
+        [
+            image(&sets, TextureFormat::Rgba8UnormSrgb, |level| &level.colors),
+            image(&sets, TextureFormat::Rgba8Unorm, |level| &level.normals),
+        ]
+    })
+}
+
+fn image(
+    sets: &[&SliceSet],
+    format: TextureFormat,
+    pixels: impl Fn(&SliceLevel) -> &[[u8; 4]],
+) -> Image {
+    let [width, height] = sets[0].levels[0].size;
+    let layers: u32 = sets.iter().map(|set| set.count).sum();
+    let mut data = Vec::new();
+    for set in sets {
+        for slice in 0..set.count as usize {
+            for level in &set.levels {
+                let count = (level.size[0] * level.size[1]) as usize;
+                let slice = &pixels(level)[slice * count..(slice + 1) * count];
+                data.extend_from_slice(bytemuck::cast_slice(slice));
+            }
+        }
+    }
+    let mut image = Image::new_uninit(
+        Extent3d {
+            width,
+            height,
+            depth_or_array_layers: layers,
+        },
+        TextureDimension::D2,
+        format,
+        RenderAssetUsages::RENDER_WORLD,
+    );
+    image.texture_descriptor.mip_level_count = sets[0].levels.len() as u32;
+    image.texture_view_descriptor = Some(TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::D2Array),
+        ..default()
+    });
+    image.data = Some(data);
+    // Rows of upright slices are heights, which end.
+    let rows = match sets[0].axis {
+        SliceAxis::W => ImageAddressMode::Repeat,
+        SliceAxis::U | SliceAxis::V => ImageAddressMode::ClampToEdge,
+    };
+    image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
+        address_mode_u: ImageAddressMode::Repeat,
+        address_mode_v: rows,
+        mag_filter: ImageFilterMode::Linear,
+        min_filter: ImageFilterMode::Linear,
+        mipmap_filter: ImageFilterMode::Linear,
+        ..default()
+    });
+    image
+}

@@ -1,0 +1,87 @@
+//! Drawing texels (§2.2, §4): slices of the volume on every facet, in the direction and the number that each view
+//! needs.
+//!
+//! 1. A [`TexelSurface`] on an entity names a volume (`component.rs`). Its mesh becomes facets (`surface_mesh.rs`), which
+//!    lie in a storage buffer (`records.rs`), and *slots* (`slots.rs`): a mesh of quads without positions, as many on
+//!    each facet as it may ever show slices. The volume becomes three pairs of texture arrays (`images.rs`). What is
+//!    alike is shared (`geometry.rs`, `library.rs`); slots and material are on a child of the surface (`systems.rs`).
+//! 2. In every pass of every view the vertex shader chooses for its facet (`shaders/choose.wgsl`, which is
+//!    [`choose`](super::choose()) again), finds the slice that its slot is, and cuts it out of the facet's prism
+//!    (`shaders/place.wgsl`, `shaders/facet.wgsl`). Shadow maps so have the slices that their light needs.
+//! 3. Fragments are those of one slice: opaque, or discarded (`shaders/look.wgsl`). So they need no sorting, texels
+//!    that overlap interpenetrate, and all belongs to Bevy's phase of masked objects (`material.rs`). The scene lights
+//!    them by the volume's normals (`shaders/forward.wgsl`), and they cast shadows (`shaders/prepass.wgsl`).
+//!
+//! Surfaces of one mesh and one volume are instances of one draw.
+
+mod component;
+mod geometry;
+mod images;
+mod library;
+mod material;
+mod records;
+mod slots;
+mod surface_mesh;
+mod systems;
+
+use bevy::asset::AssetEventSystems;
+use bevy::pbr::MaterialPlugin;
+use bevy::prelude::*;
+use bevy::render::storage::ShaderBuffer;
+use bevy::shader::load_shader_library;
+
+pub use component::{
+    ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface,
+};
+pub use material::TexelMaterial;
+pub use slots::MAX_SLOTS;
+pub use surface_mesh::TexelSurfaceError;
+pub use systems::TexelSlices;
+
+use crate::VerdureSystems;
+use crate::wind::Wind;
+
+/// Draws [`TexelSurface`]s.
+///
+/// Needs Bevy's rendering plugins, [`TexelVolumePlugin`](super::TexelVolumePlugin), and
+/// [`WindPlugin`](crate::wind::WindPlugin).
+pub struct TexelPlugin;
+
+impl Plugin for TexelPlugin {
+    fn build(&self, app: &mut App) {
+        load_shader_library!(app, "shaders/types.wgsl");
+        load_shader_library!(app, "shaders/criteria.wgsl");
+        load_shader_library!(app, "shaders/facet.wgsl");
+        load_shader_library!(app, "shaders/choose.wgsl");
+        load_shader_library!(app, "shaders/place.wgsl");
+        load_shader_library!(app, "shaders/look.wgsl");
+        bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");
+        bevy::asset::embedded_asset!(app, "shaders/prepass.wgsl");
+
+        app.add_plugins(MaterialPlugin::<TexelMaterial>::default())
+            .register_type::<TexelSurface>()
+            .register_type::<TexelSettings>()
+            .register_type::<TexelHeights>()
+            .register_type::<LiveTexels>()
+            .register_type::<TexelCycle>()
+            .register_type::<TexelSlices>()
+            .init_resource::<library::TexelLibrary>()
+            .add_observer(systems::uproot)
+            .add_systems(
+                PostUpdate,
+                (
+                    systems::forget,
+                    systems::cycle,
+                    systems::follow_assets,
+                    systems::attach,
+                    systems::follow_surfaces,
+                    systems::follow_wind.run_if(resource_changed::<Wind>),
+                )
+                    .chain()
+                    // An app without a renderer has none; it draws no texels either.
+                    .run_if(resource_exists::<Assets<ShaderBuffer>>)
+                    .in_set(VerdureSystems::Attach)
+                    .before(AssetEventSystems),
+            );
+    }
+}

@@ -1,0 +1,47 @@
+#define_import_path bevy_verdure::texel::look
+
+// The fragment stage of all passes: what a slice looks like at a place.
+
+#import bevy_verdure::texel::place::Varying
+#import bevy_verdure::texel::types::{color_texture, normal_texture, slice_sampler}
+
+// The volume's normal, and alpha, which colours have too, but here needs no conversion from sRGB.
+fn slice_normal_and_alpha(in: Varying) -> vec4<f32> {
+    return textureSample(normal_texture, slice_sampler, in.uv, in.layer);
+}
+
+fn slice_color(in: Varying) -> vec3<f32> {
+    return textureSample(color_texture, slice_sampler, in.uv, in.layer).rgb;
+}
+
+// A number from 0 to 1 for each pixel of the screen, as evenly spread as may be (J. Jimenez, Next Generation
+// Post-Processing in Call of Duty, 2014).
+fn lot(position: vec4<f32>) -> f32 {
+    return fract(52.9829189 * fract(dot(position.xy, vec2(0.06711056, 0.00583715))));
+}
+
+// Which samples of a pixel are there, where alpha goes through one half. Pixels of slices are there or not; what
+// filtering puts between is where their outline runs.
+fn covered_samples(in: Varying, alpha: f32) -> u32 {
+    let mine = lot(in.position);
+    let is_mine = mine >= in.lots.x && mine < in.lots.y;
+#ifdef TEXEL_FOUR_SAMPLES
+    // The standard places of four samples, in pixels from the centre.
+    let dx = dpdx(alpha);
+    let dy = dpdy(alpha);
+    let at = vec4(alpha) + dx * vec4(-0.125, 0.375, -0.375, 0.125) + dy * vec4(-0.375, -0.125, 0.125, 0.375);
+    let there = vec4<u32>(at >= vec4(0.5)) * vec4(1u, 2u, 4u, 8u);
+    return select(0u, there.x | there.y | there.z | there.w, is_mine);
+#else
+    return select(0u, 0xffffffffu, is_mine && alpha >= 0.5);
+#endif
+}
+
+// The unit normal in world space, of one of the volume as its texture has it.
+fn world_normal(in: Varying, baked: vec3<f32>) -> vec3<f32> {
+    let n = baked * 2.0 - 1.0;
+    let turned = in.normal_from_u * n.x + in.normal_from_v * n.y + in.normal_from_w * n.z;
+    // Opposite normals may cancel out.
+    let is_none = dot(turned, turned) == 0.0;
+    return normalize(select(turned, in.normal_from_w, is_none));
+}

@@ -1,0 +1,37 @@
+#define_import_path bevy_verdure::texel::types
+
+// A surface's facets and a volume's slices, as records.rs and material.rs write them.
+
+// xyz: a vertex, its height vector, its normal; w: its u, its v, nothing.
+struct FacetRecord {
+    positions: array<vec4<f32>, 3>,
+    heights: array<vec4<f32>, 3>,
+    normals: array<vec4<f32>, 3>,
+}
+
+struct Texels {
+    // The largest number of slices along u, v and w, powers of two.
+    most: vec3<u32>,
+    by_quality: u32,
+    // Of the volume's box, in metres.
+    lengths: vec3<f32>,
+    depth: f32,
+    // e along u, v and w.
+    thickness: vec3<f32>,
+    pixels: f32,
+    roughness: f32,
+    reflectance: f32,
+    // Depth and pixels for the views of lights.
+    shadow_depth: f32,
+    shadow_pixels: f32,
+    // xyz: velocity of the wind; w: how far it moves the top, in heights, for each metre a second.
+    wind: vec4<f32>,
+}
+
+@group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;
+@group(#{MATERIAL_BIND_GROUP}) @binding(1) var<storage, read> facets: array<FacetRecord>;
+// Slices across one axis; the sets of 1, 2, 4 and so on slices, one after the other.
+@group(#{MATERIAL_BIND_GROUP}) @binding(2) var color_texture: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(3) var normal_texture: texture_2d_array<f32>;
+// Repeats along u and v, and not along w.
+@group(#{MATERIAL_BIND_GROUP}) @binding(4) var slice_sampler: sampler;

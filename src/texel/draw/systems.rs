@@ -1,0 +1,250 @@
+//! The systems that follow surfaces from frame to frame.
+
+use bevy::camera::primitives::Aabb;
+use bevy::camera::visibility::{NoAutoAabb, RenderLayers};
+use bevy::light::{NotShadowCaster, NotShadowReceiver};
+use bevy::platform::collections::HashSet;
+use bevy::prelude::*;
+use bevy::render::renderer::RenderDevice;
+
+use super::super::asset::TexelVolume;
+use super::super::axis::SliceAxis;
+use super::component::{LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface};
+use super::library::{Drawn, TexelAssets, TexelKeys, TexelLibrary};
+use super::material::TexelMaterial;
+use crate::wind::Wind;
+
+/// Marks the children of a [`TexelSurface`] that its slices are drawn by, one for each axis. Made by the plugin; they
+/// follow their surface's
+/// [`RenderLayers`], [`NotShadowCaster`] and [`NotShadowReceiver`].
+#[derive(Component, Clone, Copy, Debug, Default, Reflect)]
+#[reflect(Component, Clone, Debug, Default)]
+pub struct TexelSlices;
+
+/// What a surface is drawn with, and by which children.
+#[derive(Component)]
+pub(crate) struct TexelDrawn {
+    keys: TexelKeys,
+    /// Those across u, v and w.
+    slices: [Entity; 3],
+}
+
+impl TexelDrawn {
+    fn despawn(&self, commands: &mut Commands) {
+        for slices in self.slices {
+            commands.entity(slices).try_despawn();
+        }
+    }
+}
+
+/// Layers of a texture array that every device has.
+const LAYERS: u32 = 256;
+
+/// What is looked at of a surface.
+type Attachable<'w> = (
+    Entity,
+    &'w TexelSurface,
+    &'w TexelSettings,
+    &'w Mesh3d,
+    Option<Ref<'w, TexelHeights>>,
+    Has<LiveTexels>,
+    Option<&'w TexelDrawn>,
+);
+
+/// The children that slices are drawn by.
+type Slices<'w> = (
+    &'w mut Mesh3d,
+    &'w mut MeshMaterial3d<TexelMaterial>,
+    &'w mut Aabb,
+);
+
+/// Gives surfaces whose mesh and volume are there what they are drawn with. One whose volume is not there yet keeps what it
+/// has.
+pub(crate) fn attach(
+    mut commands: Commands,
+    mut library: ResMut<TexelLibrary>,
+    mut assets: TexelAssets,
+    device: Option<Res<RenderDevice>>,
+    wind: Res<Wind>,
+    surfaces: Query<Attachable>,
+    mut slices: Query<Slices, (With<TexelSlices>, Without<TexelSurface>)>,
+) {
+    if device.as_ref().is_some_and(|device| device.is_changed()) {
+        library.clear();
+    }
+    let layers = device.map_or(LAYERS, |device| device.limits().max_texture_array_layers);
+    let wind = wind.limited();
+    for (entity, surface, settings, mesh, heights, is_live, drawn) in &surfaces {
+        let own = (heights.is_some() || is_live).then_some(entity);
+        let keys = TexelKeys::new(surface, mesh.id(), settings, own);
+        let is_moved = is_live || heights.as_ref().is_some_and(|heights| heights.is_changed());
+        let heights = heights.as_deref();
+        if is_moved {
+            library.renew(keys.geometry, heights, &mut assets);
+        }
+        let found = library.drawn(keys, surface, settings, heights, layers, wind, &mut assets);
+        let (geometry, materials) = match found {
+            Drawn::NotYet => continue,
+            Drawn::Nothing => {
+                if let Some(drawn) = drawn {
+                    drawn.despawn(&mut commands);
+                    commands.entity(entity).try_remove::<TexelDrawn>();
+                }
+                continue;
+            }
+            Drawn::Slices(geometry, materials) => (geometry, materials),
+        };
+        let Some(drawn) = drawn else {
+            let slices = SliceAxis::ALL.map(SliceAxis::index).map(|axis| {
+                let slices = (
+                    TexelSlices,
+                    Mesh3d(geometry.slots[axis].clone()),
+                    MeshMaterial3d(materials[axis].clone()),
+                    geometry.bounds,
+                    NoAutoAabb,
+                    ChildOf(entity),
+                );
+                commands.spawn(slices).id()
+            });
+            let drawn = TexelDrawn { keys, slices };
+            commands.entity(entity).try_insert(drawn);
+            continue;
+        };
+        for ((child, slots), material) in drawn.slices.iter().zip(&geometry.slots).zip(materials) {
+            if let Ok((mut mesh, mut used, mut bounds)) = slices.get_mut(*child) {
+                mesh.set_if_neq(Mesh3d(slots.clone()));
+                used.set_if_neq(MeshMaterial3d(material));
+                bounds.set_if_neq(geometry.bounds);
+            }
+        }
+        if drawn.keys != keys {
+            let slices = drawn.slices;
+            commands
+                .entity(entity)
+                .try_insert(TexelDrawn { keys, slices });
+        }
+    }
+}
+
+/// Follows meshes and volumes that were edited or reloaded.
+pub(crate) fn follow_assets(
+    mut edited_meshes: MessageReader<AssetEvent<Mesh>>,
+    mut edited_volumes: MessageReader<AssetEvent<TexelVolume>>,
+    live: Query<&Mesh3d, With<LiveTexels>>,
+    mut library: ResMut<TexelLibrary>,
+    mut assets: TexelAssets,
+) {
+    for event in edited_volumes.read() {
+        if let AssetEvent::Modified { id } = event {
+            library.forget_volume(*id);
+        }
+    }
+    // Live meshes are followed anyway.
+    let mut seen: HashSet<_> = live.iter().map(|mesh| mesh.id()).collect();
+    for event in edited_meshes.read() {
+        if let AssetEvent::Modified { id } = event
+            && seen.insert(*id)
+        {
+            library.follow_mesh(*id, &mut assets);
+        }
+    }
+}
+
+/// Tells the materials of a change of wind.
+pub(crate) fn follow_wind(
+    library: Res<TexelLibrary>,
+    mut materials: ResMut<Assets<TexelMaterial>>,
+    wind: Res<Wind>,
+) {
+    library.follow_wind(wind.limited(), &mut materials);
+}
+
+/// What of a surface its slices follow.
+type Followed<'w> = (
+    &'w TexelDrawn,
+    Option<&'w RenderLayers>,
+    Has<NotShadowCaster>,
+    Has<NotShadowReceiver>,
+);
+
+/// Shows slices where their surface is shown, and lets them cast and receive shadows as it does.
+pub(crate) fn follow_surfaces(
+    mut commands: Commands,
+    surfaces: Query<Followed>,
+    slices: Query<
+        (
+            Option<&RenderLayers>,
+            Has<NotShadowCaster>,
+            Has<NotShadowReceiver>,
+        ),
+        With<TexelSlices>,
+    >,
+) {
+    for (drawn, layers, casts_none, receives_none) in &surfaces {
+        for &child in &drawn.slices {
+            let Ok((own_layers, own_casts_none, own_receives_none)) = slices.get(child) else {
+                continue;
+            };
+            let mut own = commands.entity(child);
+            if layers != own_layers {
+                match layers {
+                    Some(layers) => own.try_insert(layers.clone()),
+                    None => own.try_remove::<RenderLayers>(),
+                };
+            }
+            if casts_none && !own_casts_none {
+                own.try_insert(NotShadowCaster);
+            } else if own_casts_none && !casts_none {
+                own.try_remove::<NotShadowCaster>();
+            }
+            if receives_none && !own_receives_none {
+                own.try_insert(NotShadowReceiver);
+            } else if own_receives_none && !receives_none {
+                own.try_remove::<NotShadowReceiver>();
+            }
+        }
+    }
+}
+
+/// Stops drawing texels on an entity that is no surface any more.
+pub(crate) fn uproot(
+    removed: On<Remove, TexelSurface>,
+    drawn: Query<&TexelDrawn>,
+    mut commands: Commands,
+) {
+    if let Ok(drawn) = drawn.get(removed.entity) {
+        drawn.despawn(&mut commands);
+        if let Ok(mut entity) = commands.get_entity(removed.entity) {
+            entity.try_remove::<TexelDrawn>();
+        }
+    }
+}
+
+/// Shows the volume whose turn it is.
+pub(crate) fn cycle(time: Res<Time>, mut surfaces: Query<(&TexelCycle, &mut TexelSurface)>) {
+    for (cycle, mut surface) in &mut surfaces {
+        if let Some(volume) = cycle.at(time.elapsed_secs())
+            && *volume != surface.volume
+        {
+            surface.volume = volume.clone();
+        }
+    }
+}
+
+/// Forgets what no surface uses any more.
+pub(crate) fn forget(
+    mut removed: RemovedComponents<TexelDrawn>,
+    mut library: ResMut<TexelLibrary>,
+    changed: Query<(), Changed<TexelDrawn>>,
+    drawn: Query<(&TexelDrawn, Option<&TexelCycle>)>,
+) {
+    if removed.read().count() > 0 || !changed.is_empty() {
+        let mut used = HashSet::default();
+        for (drawn, cycle) in &drawn {
+            used.insert(drawn.keys);
+            let turns = cycle.into_iter().flat_map(|cycle| &cycle.volumes);
+            used.extend(turns.map(|volume| drawn.keys.with_volume(volume.id())));
+        }
+        library.keep(&used);
+    }
+}
