@@ -1,5 +1,6 @@
 //! Relief that keeps the sun off itself.
 
+use bevy::core_pipeline::prepass::{DepthPrepass, NormalPrepass};
 use bevy::prelude::*;
 use bevy_verdure::lab::reference::ReferenceSettings;
 use bevy_verdure::lab::reference::relief::{ReliefOptions, ReliefScene, ShellThickness};
@@ -20,7 +21,7 @@ const SHOT: Shot = Shot {
 /// From where the sun shines: aslant along what the picture shows.
 const SUN: Vec3 = Vec3::new(-0.6, -0.6, -0.4);
 
-fn picture(self_shadow: u32) -> Pixels {
+fn picture(self_shadow: u32, configure: impl FnOnce(&mut Studio)) -> Pixels {
     let mut studio = Studio::default();
     let map = (studio.world())
         .resource_mut::<Assets<Image>>()
@@ -41,6 +42,7 @@ fn picture(self_shadow: u32) -> Pixels {
         },
         Transform::default().looking_to(SUN, Vec3::Y),
     ));
+    configure(&mut studio);
     for _ in 0..3 {
         studio.headless.step();
     }
@@ -49,7 +51,7 @@ fn picture(self_shadow: u32) -> Pixels {
 
 #[test]
 fn what_the_reference_cannot_see_the_sun_from_is_darker_and_the_rest_is_not() {
-    let (plain, shadowed) = (picture(0), picture(32));
+    let (plain, shadowed) = (picture(0, |_| {}), picture(32, |_| {}));
     let (mut dark, mut light, mut wrong) = (0, 0, 0);
     let Shot { size, .. } = SHOT;
     let map = studs();
@@ -96,4 +98,26 @@ fn what_the_reference_cannot_see_the_sun_from_is_darker_and_the_rest_is_not() {
     assert!(dark > 100 && light > 500);
     // Rims of shadows are soft, and drawn by 32 steps.
     assert!(wrong * 50 <= dark + light, "{wrong} wrong");
+}
+
+#[test]
+fn with_shadow_maps_and_prepasses_it_takes_light_away_and_adds_none() {
+    let [plain, shadowed] = [0, 8].map(|steps| {
+        picture(steps, |studio| {
+            let camera = studio.camera();
+            let passes = (DepthPrepass, NormalPrepass, Msaa::Sample4);
+            let world = studio.world();
+            world.entity_mut(camera).insert(passes);
+            for mut light in world.query::<&mut DirectionalLight>().iter_mut(world) {
+                light.shadow_maps_enabled = true;
+            }
+        })
+    });
+    let mut darker = 0;
+    for (one, other) in plain.rgb_bytes().iter().zip(shadowed.rgb_bytes()) {
+        // A step of eight bits, which the light that is taken away again may be off by.
+        assert!(other <= one.saturating_add(1), "{one} became {other}");
+        darker += usize::from(other + 10 < *one);
+    }
+    assert!(darker > 100, "{darker} values are darker");
 }
