@@ -136,7 +136,8 @@ fn keep_coverage(levels: &mut [u8], size: u32) {
             }
         }
         for pixel in bytes.chunks_exact_mut(4) {
-            pixel[3] = (f32::from(pixel[3]) * high).min(255.0) as u8;
+            // Up, so that what just passes the mask does so in eight bits.
+            pixel[3] = (f32::from(pixel[3]) * high).ceil().min(255.0) as u8;
         }
         start += pixels(level) * 4;
     }
