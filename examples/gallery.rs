@@ -17,6 +17,10 @@ mod looks;
 mod planting;
 #[path = "scenes/scene.rs"]
 mod scene;
+#[path = "scenes/twins.rs"]
+mod twins;
+#[path = "scenes/wardrobe.rs"]
+mod wardrobe;
 
 use std::path::PathBuf;
 
@@ -54,7 +58,9 @@ fn draw(args: &Args) -> Result<(), String> {
     let UVec2 { x, y } = args.size;
     let mut sheet = RgbImage::new(x * COLUMNS, y * (scenes.len() as u32).div_ceil(COLUMNS));
     for (i, scene) in (0..).zip(scenes) {
-        let picture = common::picture(args.size, |app| scene.stage(args.seed, Drawn::Relief, app))?;
+        let picture = common::picture(args.size, |app| {
+            scene.stage(args.seed, Drawn::Relief, 0, app)
+        })?;
         let picture = RgbImage::from_raw(x, y, picture.rgb_bytes())
             .ok_or("a picture of another size came back")?;
         let (column, row) = (i % COLUMNS, i / COLUMNS);

@@ -36,16 +36,16 @@ use bevy::prelude::*;
 pub mod prelude {
     pub use crate::frusta::{
         Ends, Frusta, FrustaExtension, FrustaMaterial, FrustaOutput, FrustaStats, Join,
-        MeshSettings, Relief, ReliefSteps, ReliefThickness, ShadingNormals, frusta_material,
-        relief_material,
+        MeshSettings, Relief, ReliefMarch, ReliefSteps, ReliefThickness, ShadingNormals,
+        frusta_material, relief_material,
     };
     pub use crate::skeleton::{
         Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,
         UnfoldSkeleton,
     };
     pub use crate::slicing::{
-        BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
-        Orientations, SliceOrder, SlicedCrown, Slicing, bake,
+        BakeSettings, Composition, CrownLighting, CrownMaterial, CrownMesh, CrownSettings,
+        CrownTint, Orientations, SliceOrder, SlicedCrown, Slicing, bake,
     };
     pub use crate::texel::{
         LiveTexels, TexelCycle, TexelHeights, TexelQuality, TexelSettings, TexelSurface,

@@ -8,8 +8,8 @@ use bevy_verdure::prelude::*;
 
 use super::common::texture::painted;
 
-/// Ribs round a cactus.
-const RIBS: f32 = 11.0;
+/// Ribs round a cactus: even, since tufts change from rib to rib.
+const RIBS: f32 = 12.0;
 /// Petals of a flower; each is a segment.
 pub const PETALS: usize = 5;
 
@@ -31,7 +31,8 @@ pub fn body(segments: usize, dice: &mut Dice) -> Cactus {
     let radius = dice.between(0.15, 0.2);
     let mut plant = Skeleton::builder();
     let base = plant.root(Vec3::ZERO, radius * 0.8);
-    plant.texture_length(base, 0.3);
+    // Maps are as long as they are wide.
+    plant.texture_length(base, TAU * radius);
     // A saguaro is widest at two fifths of its height and rounded at the top.
     let swell =
         |h: f32| radius * (0.8 + 0.35 * (h * 2.6).min(1.0) - 0.22 * ((h - 0.4) / 0.6).max(0.0));
@@ -104,9 +105,9 @@ pub fn skin_color() -> Image {
     painted(256, true, |u, v| {
         let ridge = ridge(u);
         let green = Vec3::new(0.032, 0.085, 0.030).lerp(Vec3::new(0.19, 0.36, 0.125), ridge);
-        // Tufts sit on the ridges, four to a repeat, in turn on every second rib.
+        // Tufts sit on the ridges, fourteen to a repeat, in turn on every second rib.
         let rib = (u * RIBS).round();
-        let along = (v * 4.0 + 0.5 * (rib % 2.0)).fract() - 0.5;
+        let along = (v * 14.0 + 0.5 * (rib % 2.0)).fract() - 0.5;
         let across = u * RIBS - rib;
         let tuft = 1.0 - ((across * across * 90.0 + along * along * 60.0).sqrt()).min(1.0);
         let color = green.lerp(Vec3::new(0.83, 0.76, 0.52), (tuft * 1.8).min(1.0));

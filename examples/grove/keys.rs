@@ -45,7 +45,11 @@ pub fn press(
         settings.frames = !settings.frames;
     }
     if pressed(KeyCode::KeyL) {
-        settings.lit = !settings.lit;
+        settings.lighting = match settings.lighting {
+            CrownLighting::Simple => CrownLighting::Full,
+            CrownLighting::Full => CrownLighting::Unlit,
+            CrownLighting::Unlit => CrownLighting::Simple,
+        };
     }
     if pressed(KeyCode::KeyX) {
         settings.left_out = (settings.left_out + 1) % 3;

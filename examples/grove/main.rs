@@ -21,7 +21,7 @@ use trees::{Drawn, Grove};
 use walk::Walk;
 
 /// Walks through a grove. Keys: M meshes or slicings, F frames round slices, H hashed or blended, B the paper's order,
-/// L lit or not, X leaves back slices out, G wind, P the recorded walk.
+/// L lighting, X leaves back slices out, G wind, P the recorded walk.
 #[derive(Parser)]
 struct Args {
     /// Number of trees.
@@ -42,6 +42,9 @@ struct Args {
     /// How slices cover what is behind them.
     #[arg(long, value_enum, default_value_t = Cover::Blended)]
     cover: Cover,
+    /// What lights crowns of slices.
+    #[arg(long, value_enum, default_value_t = Light::Simple)]
+    light: Light,
     /// The paper's order of slices.
     #[arg(long)]
     paper: bool,
@@ -74,6 +77,13 @@ enum Cover {
     Hashed,
 }
 
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Light {
+    Full,
+    Simple,
+    Unlit,
+}
+
 fn main() -> std::process::ExitCode {
     let args = Args::parse();
     common::exit(run(&args))
@@ -89,6 +99,11 @@ fn run(args: &Args) -> Result<(), String> {
             SliceOrder::Paper
         } else {
             SliceOrder::Steady
+        },
+        lighting: match args.light {
+            Light::Full => CrownLighting::Full,
+            Light::Simple => CrownLighting::Simple,
+            Light::Unlit => CrownLighting::Unlit,
         },
         frames: args.edges,
         ..default()

@@ -18,6 +18,8 @@ mod dance;
 mod looks;
 mod planting;
 mod scene;
+mod twins;
+mod wardrobe;
 
 use bevy_verdure::lab::CommonArgs;
 use clap::Parser;
@@ -37,6 +39,9 @@ struct Args {
     /// What is drawn at first.
     #[arg(long, value_enum, default_value = "relief")]
     draw: Drawn,
+    /// How often polygons are subdivided: 16 triangles a segment, and each time four for one.
+    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u32).range(0..=5))]
+    subdivisions: u32,
     #[command(flatten)]
     common: CommonArgs,
 }
@@ -44,7 +49,8 @@ struct Args {
 fn main() -> std::process::ExitCode {
     let args = Args::parse();
     let run = common::run(&args.scene.name(), &args.common, |app| {
-        args.scene.stage(args.seed, args.draw, app);
+        args.scene
+            .stage(args.seed, args.draw, args.subdivisions, app);
     });
     common::exit(run)
 }

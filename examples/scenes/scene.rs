@@ -8,7 +8,9 @@ use clap::ValueEnum;
 
 use super::common::stage::Stage;
 use super::crowd::crowd;
-use super::planting::{Drawn, Planted};
+use super::planting::{Drawn, drawing, plant};
+use super::twins::{Subdivisions, twins};
+use super::wardrobe::wardrobe;
 
 /// A scene of the paper's Table 1.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -64,22 +66,26 @@ impl Scene {
     }
 
     /// Sets the scene up in an app.
-    pub fn stage(self, seed: u64, drawn: Drawn, app: &mut App) {
+    pub fn stage(self, seed: u64, drawn: Drawn, subdivisions: u32, app: &mut App) {
         let (eye, at) = self.view();
-        app.add_plugins(Stage {
-            eye,
-            at,
-            centre: at.with_x(0.0).with_z(0.0),
-            shadows: 3.0 * eye.distance(at),
-            ..default()
-        });
+        app.add_plugins((
+            Stage {
+                eye,
+                at,
+                centre: at.with_x(0.0).with_z(0.0),
+                shadows: 3.0 * eye.distance(at),
+                ..default()
+            },
+            drawing,
+            twins,
+        ));
+        app.insert_resource(drawn)
+            .insert_resource(Subdivisions(subdivisions));
         if self == Self::DancingCacti {
-            app.add_plugins(crowd);
+            app.add_plugins((crowd, wardrobe));
         } else {
-            app.add_plugins(Planted {
-                planting: self.grow(seed),
-                drawn,
-            });
+            let planting = self.grow(seed);
+            app.add_systems(Startup, move |world: &mut World| plant(world, &planting));
         }
     }
 }

@@ -41,12 +41,8 @@ fn reference(lab: &mut Lab, shot: &Shot) -> Vec<u8> {
     box_downsample(shot.size, SAMPLES, &picture.rgb_bytes())
 }
 
-/// Mean FLIP of slicings against the mesh, over some shots, for each of some settings.
-fn errors(
-    lab: &mut Lab,
-    shots: &[Shot],
-    settings: &[(BakeSettings, CrownSettings)],
-) -> Result<Vec<f64>, String> {
+/// Mean FLIP of ways to draw the crown against the mesh, over some shots.
+pub fn flips(lab: &mut Lab, shots: &[Shot], ways: &[(String, Drawn)]) -> Vec<f64> {
     let camera = lab.studio.camera();
     let mesh = lab.plant(&Drawn::Mesh, Transform::IDENTITY);
     lab.studio.headless.step();
@@ -54,9 +50,8 @@ fn errors(
     lab.studio.world().despawn(mesh);
     lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
     let mut errors = Vec::new();
-    for (bake, crown) in settings {
-        let slicing = lab.bake(bake)?;
-        let tree = lab.plant(&Drawn::Slicing(slicing, *crown), Transform::IDENTITY);
+    for (name, drawn) in ways {
+        let tree = lab.plant(drawn, Transform::IDENTITY);
         for _ in 0..3 {
             lab.studio.headless.step();
         }
@@ -66,22 +61,31 @@ fn errors(
             sum += f64::from(mean_flip((shot.size.x, shot.size.y), reference, &picture));
         }
         errors.push(sum / shots.len() as f64);
-        println!(
-            "{:?} {:?} {}: {:.4}",
-            bake.orientations,
-            bake.levels,
-            bake.pixels,
-            sum / shots.len() as f64
-        );
+        println!("{name}: {:.4}", sum / shots.len() as f64);
         lab.studio.world().despawn(tree);
         lab.studio.headless.step();
     }
     lab.studio.world().entity_mut(camera).insert(Msaa::Off);
+    errors
+}
+
+/// The same of slicings, for each of some settings.
+fn errors(
+    lab: &mut Lab,
+    shots: &[Shot],
+    settings: &[(BakeSettings, CrownSettings)],
+) -> Result<Vec<f64>, String> {
+    let mut errors = Vec::new();
+    for (bake, crown) in settings {
+        let name = format!("{:?} {:?} {}", bake.orientations, bake.levels, bake.pixels);
+        let drawn = Drawn::Slicing(lab.bake(bake)?, *crown);
+        errors.extend(flips(lab, shots, &[(name, drawn)]));
+    }
     Ok(errors)
 }
 
 /// Eyes on a circle, off the orientations.
-fn circle(lab: &Lab, distance: f32) -> Vec<Shot> {
+pub fn circle(lab: &Lab, distance: f32) -> Vec<Shot> {
     let count = if lab.quick { 4 } else { 9 };
     (0..count)
         .map(|i| shot(lab, distance, 3.0 + 360.0 / count as f32 * i as f32, 4.0))

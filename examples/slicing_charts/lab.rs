@@ -13,6 +13,8 @@ pub struct Lab {
     pub adapter: String,
     /// Whether to measure less.
     pub quick: bool,
+    /// Numbers of trees that were asked for.
+    trees: Vec<u32>,
     looks: Looks,
 }
 
@@ -29,10 +31,12 @@ struct Looks {
 pub enum Drawn {
     Mesh,
     Slicing(Handle<Slicing>, CrownSettings),
+    /// Flat pictures.
+    Billboards(Vec<(Handle<Mesh>, Handle<StandardMaterial>)>),
 }
 
 impl Lab {
-    pub fn open(quick: bool) -> Self {
+    pub fn open(quick: bool, trees: Vec<u32>) -> Self {
         let mut studio = Studio::new(|app| {
             app.add_plugins(GpuClockPlugin)
                 .insert_resource(GlobalAmbientLight {
@@ -79,6 +83,7 @@ impl Lab {
             crown,
             adapter,
             quick,
+            trees,
             looks: Looks {
                 solid,
                 leaves,
@@ -86,6 +91,15 @@ impl Lab {
                 wood,
                 green,
             },
+        }
+    }
+
+    /// Numbers of trees to measure: those that were asked for, or these.
+    pub fn trees(&self, usual: &[u32]) -> Vec<u32> {
+        if self.trees.is_empty() {
+            usual.to_vec()
+        } else {
+            self.trees.clone()
         }
     }
 
@@ -123,6 +137,11 @@ impl Lab {
                 Drawn::Mesh => {
                     for (mesh, material) in parts {
                         tree.spawn((Mesh3d(mesh), MeshMaterial3d(material)));
+                    }
+                }
+                Drawn::Billboards(pair) => {
+                    for (mesh, material) in pair {
+                        tree.spawn((Mesh3d(mesh.clone()), MeshMaterial3d(material.clone())));
                     }
                 }
                 Drawn::Slicing(slicing, settings) => {

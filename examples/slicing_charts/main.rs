@@ -6,7 +6,10 @@
 
 mod accuracy;
 mod cost;
+mod grove;
 mod lab;
+mod parts;
+mod rivals;
 
 use std::path::PathBuf;
 
@@ -27,13 +30,19 @@ struct Args {
     /// Fewer trees, eyes and settings.
     #[arg(long)]
     quick: bool,
+    /// How many trees, for charts of cost.
+    #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    trees: Vec<u32>,
 }
 
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 5] = [
+const EXPERIMENTS: [Experiment; 8] = [
     ("slicing_cost", cost::against_trees),
+    ("slicing_parts", parts::against_trees),
+    ("slicing_rivals_error", rivals::errors),
+    ("slicing_rivals_cost", rivals::cost),
     ("slicing_slices", accuracy::against_slices),
     ("slicing_orientations", accuracy::against_orientations),
     ("slicing_pixels", accuracy::against_pixels),
@@ -44,7 +53,7 @@ fn main() -> Result<(), String> {
     let args = Args::parse();
     for (name, chart) in EXPERIMENTS {
         if name.contains(&args.only) {
-            let mut lab = Lab::open(args.quick);
+            let mut lab = Lab::open(args.quick, args.trees.clone());
             chart(&mut lab)?.save(&args.out, name)?;
             println!("{}", args.out.join(name).with_extension("png").display());
         }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use bevy::prelude::*;
-use bevy_verdure::frusta::{ReliefSteps, ReliefV};
+use bevy_verdure::frusta::{ReliefMarch, ReliefSteps, ReliefV};
 use bevy_verdure::lab::charts::{Axis, Chart, Point, Series};
 use bevy_verdure::lab::rivals::{Exhibit, Judge, March, Rival};
 use bevy_verdure::lab::{GeometryError, Timing};
@@ -52,6 +52,19 @@ fn knobs(plan: &Plan) -> Vec<Knob> {
             "relief steps",
             (plan.steps.iter())
                 .map(|&n| (n.to_string(), steps(ReliefSteps::Fixed(n))))
+                .collect(),
+        ),
+        knob(
+            "relief steps, leaping",
+            (plan.steps.iter())
+                .map(|&n| {
+                    let value = march(March {
+                        steps: ReliefSteps::Fixed(n),
+                        march: ReliefMarch::Leaping,
+                        ..default
+                    });
+                    (n.to_string(), value)
+                })
                 .collect(),
         ),
         // Apart from the others, for it has no place in their order.

@@ -14,12 +14,12 @@ use bevy::render::render_resource::{
     BindingType, BufferBindingType, Face, OwnedBindingResource, RenderPipelineDescriptor,
     ShaderStages, SpecializedMeshPipelineError, UnpreparedBindGroup,
 };
-use bevy::render::renderer::RenderDevice;
+use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy::shader::{ShaderDefVal, ShaderRef};
 
 use super::buffers::FrustaBuffers;
 use super::mesh::ATTRIBUTE_CORNER;
-use super::relief::{Relief, ReliefBindings, ReliefTextures, ReliefV};
+use super::relief::{Relief, ReliefBindings, ReliefMarch, ReliefTextures, ReliefV};
 
 /// The material of plants that are drawn by frusta: all of [`StandardMaterial`] that a surface with one pair of
 /// texture coordinates can have, on a ray-cast surface.
@@ -80,13 +80,18 @@ pub struct FrustaKey {
 /// Bits of a key's relief.
 const RELIEF: u8 = 1;
 const RELIEF_INTERPOLATED_V: u8 = 2;
+const RELIEF_LEAPING: u8 = 4;
+const RELIEF_SELF_SHADOW: u8 = 8;
 
 fn relief_bits(relief: &Relief) -> u8 {
     let bit = |bit, set| if set { bit } else { 0 };
     if relief.shell().is_none() {
         return 0;
     }
-    RELIEF | bit(RELIEF_INTERPOLATED_V, relief.v == ReliefV::Interpolated)
+    RELIEF
+        | bit(RELIEF_INTERPOLATED_V, relief.v == ReliefV::Interpolated)
+        | bit(RELIEF_LEAPING, relief.march == ReliefMarch::Leaping)
+        | bit(RELIEF_SELF_SHADOW, relief.self_shadow > 0)
 }
 
 /// Bindings of the extension; [`StandardMaterial`] uses those below.
@@ -106,7 +111,7 @@ pub(crate) const STORAGE_BUFFERS: u32 = BUFFERS + 4;
 
 impl AsBindGroup for FrustaExtension {
     type Data = FrustaKey;
-    type Param = (SRes<FrustaBuffers>, SRes<ReliefTextures>);
+    type Param = (SRes<FrustaBuffers>, SRes<ReliefTextures>, SRes<RenderQueue>);
 
     fn label() -> &'static str {
         "frusta_material"
@@ -124,7 +129,7 @@ impl AsBindGroup for FrustaExtension {
         &self,
         _: &BindGroupLayout,
         device: &RenderDevice,
-        (buffers, textures): &mut SystemParamItem<'_, '_, Self::Param>,
+        (buffers, textures, queue): &mut SystemParamItem<'_, '_, Self::Param>,
         _: bool,
     ) -> Result<UnpreparedBindGroup, AsBindGroupError> {
         let (true, Some(joints), Some(shapes), Some(plants)) = (
@@ -140,7 +145,7 @@ impl AsBindGroup for FrustaExtension {
             .relief
             .as_ref()
             .filter(|relief| relief.shell().is_some());
-        let Some(relief) = ReliefBindings::resources(relief, textures, device) else {
+        let Some(relief) = ReliefBindings::resources(relief, textures, device, queue) else {
             return Err(AsBindGroupError::RetryNextUpdate);
         };
         let buffers =
@@ -239,6 +244,8 @@ impl MaterialExtension for FrustaExtension {
         for (bit, def) in [
             (RELIEF, "FRUSTA_RELIEF"),
             (RELIEF_INTERPOLATED_V, "FRUSTA_INTERPOLATED_V"),
+            (RELIEF_LEAPING, "FRUSTA_LEAPING"),
+            (RELIEF_SELF_SHADOW, "FRUSTA_SELF_SHADOW"),
         ] {
             if relief & bit != 0 {
                 defs.push(def.into());

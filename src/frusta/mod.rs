@@ -82,7 +82,7 @@ pub use material::{
     FrustaExtension, FrustaKey, FrustaMaterial, FrustaOutput, ShadingNormals, frusta_material,
 };
 pub use polygons::{MeshError, MeshParts, MeshRelief, MeshSettings};
-pub use relief::{Relief, ReliefSteps, ReliefThickness, ReliefV, relief_material};
+pub use relief::{Relief, ReliefMarch, ReliefSteps, ReliefThickness, ReliefV, relief_material};
 pub use stats::FrustaStats;
 pub use to_skinned_mesh::MAX_SKINNED_SEGMENTS;
 
@@ -106,7 +106,9 @@ impl Plugin for FrustaPlugin {
         load_shader_library!(app, "shaders/shell.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/relief.wgsl");
+        load_shader_library!(app, "shaders/leap.wgsl");
         load_shader_library!(app, "shaders/march.wgsl");
+        load_shader_library!(app, "shaders/self_shadow.wgsl");
         load_shader_library!(app, "shaders/trace.wgsl");
         load_shader_library!(app, "shaders/material.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");

@@ -3,6 +3,7 @@
 //! Behind the feature `lab`, which examples, tests and benches turn on; a game never compiles it.
 
 mod args;
+mod billboards;
 mod broadleaf_crown;
 mod capture;
 pub mod charts;
@@ -23,6 +24,7 @@ mod texture;
 mod timing;
 
 pub use args::{CommonArgs, Size, parse_size, parse_vec3};
+pub use billboards::add_billboards;
 pub use broadleaf_crown::broadleaf_crown;
 pub use capture::{Pixels, load_png};
 pub use compare::mean_flip;

@@ -115,8 +115,16 @@ pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS
     slots
 }
 
-/// Two levels of detail and their shares for an eye so many radii from the centroid: that of the first level, and 1
-/// minus it of the next coarser one.
+/// The screen that levels of detail are made for: pixels that a metre takes one metre away. 480 lines of 52° have so many.
+pub const FOCAL: f32 = 500.0;
+
+/// How many radii away a crown would be as small on the screen of [`FOCAL`] as it is so many radii away on one of `focal`.
+pub fn apparent_distance(distance: f32, focal: f32) -> f32 {
+    distance * FOCAL / focal
+}
+
+/// Two levels of detail and their shares for a crown that is, apparently, so many radii away: that of the first level,
+/// and 1 minus it of the next coarser one.
 pub fn levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (usize, f32) {
     if order == SliceOrder::Paper {
         return (0, 1.0);
@@ -136,6 +144,17 @@ pub fn levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (usize,
 /// The corrected opacity of a slicing of weight α: f_c α, where f_c = 1 + m_s (1 − α_p), α_p being the greatest weight.
 pub fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
     (weight * (1.0 + correction * (1.0 - greatest))).min(1.0)
+}
+
+/// The greatest opacity that [`covered`] takes for what it is: more of it and a slicing that fades in would be there at once.
+const SUREST: f32 = 0.96;
+
+/// The opacity of a place of opacity `alpha` in one of several slicings that blend, whose weight α is `weight`:
+/// 1 − (1 − alpha)^α, so that slicings whose weights add up to 1 cover together what one of them covers alone, where
+/// α alpha would let more and more through. The correction f_c makes up for that on the average of a crown, this for
+/// each place. Nearly opaque places are eased by [`SUREST`], so that no slicing gains more than 3.4 times its weight.
+pub fn covered(alpha: f32, weight: f32) -> f32 {
+    (1.0 - (1.0 - SUREST * alpha).powf(weight)) / SUREST
 }
 
 /// 0 up to `low`, 1 from `high`, and an S between.
@@ -163,11 +182,13 @@ pub struct DrawnSlice {
     pub level: u32,
     /// Which slice of it, the first being furthest along the direction.
     pub index: u32,
-    /// Opacity, corrected.
+    /// What becomes of its pixels' opacities: in the paper's order they are multiplied with this, α f_c; else this is α,
+    /// and they are what [`covered`] says.
     pub opacity: f32,
 }
 
-/// All slices for an eye at `eye`, from the centroid in local space, in the order in which they are drawn: far to near.
+/// All slices for an eye at `eye`, from the centroid in local space, on the screen of [`FOCAL`], in the order in which they
+/// are drawn: far to near.
 /// `left_out` of the furthest ones of each slicing are not.
 pub fn drawn_slices(
     shape: &SlicingShape,
@@ -178,14 +199,17 @@ pub fn drawn_slices(
     let direction = eye.normalize_or(Vec3::Z);
     let slots = slots(shape, direction, order);
     let (level, share) = levels(shape, eye.length() / shape.radius, order);
-    let greatest_weight = slots.iter().map(|slot| slot.weight).fold(0.0, f32::max);
-    let greatest = greatest_weight * share.max(1.0 - share);
+    let greatest = slots.iter().map(|slot| slot.weight).fold(0.0, f32::max);
     let mut drawn = Vec::new();
     for (level, share) in [(level + 1, 1.0 - share), (level, share)] {
         let count = shape.levels.get(level).copied().unwrap_or(0);
         for rank in 0..count {
             for slot in slots {
-                let opacity = corrected(slot.weight * share, greatest, shape.correction);
+                let weight = slot.weight * share;
+                let opacity = match order {
+                    SliceOrder::Steady => weight,
+                    SliceOrder::Paper => corrected(weight, greatest, shape.correction),
+                };
                 if opacity <= 0.0 || rank < left_out {
                     continue;
                 }
@@ -205,9 +229,25 @@ pub fn drawn_slices(
     drawn
 }
 
-/// The slices that cast shadows for light from `direction` (unit), that of a directional light: those of the nearest
-/// orientation, in the finest level of detail, since the crown shades itself in as many steps as there are slices.
-pub fn cast_slices(shape: &SlicingShape, direction: Vec3) -> Vec<DrawnSlice> {
+/// The slices that cast shadows for light from `direction` (unit), that of a directional light, into a shadow map in which
+/// the crown is as small as it apparently is so many radii away: those of the nearest orientation, in the level of
+/// detail next to that for such a size, which no picture shows but frame times do (in the paper's order, the finest). What
+/// is next to the light comes first, and hides the rest from the depth test on.
+pub fn cast_slices(
+    shape: &SlicingShape,
+    direction: Vec3,
+    distance: f32,
+    order: SliceOrder,
+) -> Vec<DrawnSlice> {
+    let (level, share) = levels(shape, distance, order);
+    let level = match order {
+        SliceOrder::Paper => 0,
+        SliceOrder::Steady => {
+            let next = level + 1 + usize::from(share < 0.5);
+            next.min(shape.levels.len() - 1)
+        }
+    };
+    let count = shape.levels[level];
     let (mut nearest, mut greatest) = (0, -2.0);
     for (i, o) in shape.orientations.iter().enumerate() {
         let cosine = o.direction.dot(direction);
@@ -215,13 +255,17 @@ pub fn cast_slices(shape: &SlicingShape, direction: Vec3) -> Vec<DrawnSlice> {
             (nearest, greatest) = (i as u32, cosine);
         }
     }
-    let slice = |index| DrawnSlice {
+    let slice = |number| DrawnSlice {
         orientation: nearest,
-        level: 0,
-        index,
+        level: level as u32,
+        index: if greatest >= 0.0 {
+            count - 1 - number
+        } else {
+            number
+        },
         opacity: 1.0,
     };
-    (0..shape.levels[0]).map(slice).collect()
+    (0..count).map(slice).collect()
 }
 
 #[cfg(test)]
@@ -338,6 +382,25 @@ mod tests {
     }
 
     #[test]
+    fn blended_slicings_cover_together_what_one_covers_alone() {
+        for alpha in [0.0, 0.1, 0.5, 0.9, 1.0_f32] {
+            // One slicing alone is what it is, in single precision.
+            assert!((covered(alpha, 1.0) - alpha).abs() < 1e-6);
+            let mut before = 0.0;
+            for step in 1..=100 {
+                let weight = step as f32 / 100.0;
+                let (a, b) = (covered(alpha, weight), covered(alpha, 1.0 - weight));
+                let both = 1.0 - (1.0 - a) * (1.0 - b);
+                // Easing takes a part of what both cover: a b (1/SUREST - 1) at most, a quarter in the middle.
+                let eased = 1.0 / SUREST - 1.0;
+                assert!((both - alpha).abs() <= eased, "{alpha} {weight}: {both}");
+                assert!(a >= before && a - before < 0.034, "{alpha} {weight}");
+                before = a;
+            }
+        }
+    }
+
+    #[test]
     fn slices_are_drawn_interleaved_from_the_furthest() {
         let shape = shape(Orientations::Circle(6), false);
         let drawn = drawn_slices(&shape, horizontal(75.0) * 9.0, SliceOrder::Paper, 0);
@@ -372,13 +435,19 @@ mod tests {
     fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
         let shape = shape(Orientations::Circle(6), true);
         for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {
-            let cast = cast_slices(&shape, light);
-            assert_eq!(cast.len(), 5);
-            assert!(
-                cast.iter()
-                    .all(|s| s.orientation == orientation && s.opacity == 1.0),
-                "{light}"
-            );
+            for (distance, count) in [(1.0, 3), (9.9, 3), (10.1, 1), (24.0, 1), (26.0, 1)] {
+                let cast = cast_slices(&shape, light, distance, SliceOrder::Steady);
+                // The slice next to the light has the greatest number, and comes first.
+                let numbers: Vec<u32> = cast.iter().map(|s| s.index).collect();
+                assert_eq!(numbers, (0..count).rev().collect::<Vec<u32>>());
+                assert!(
+                    cast.iter()
+                        .all(|s| s.orientation == orientation && s.opacity == 1.0),
+                    "{light}"
+                );
+            }
+            let paper = cast_slices(&shape, light, 26.0, SliceOrder::Paper);
+            assert_eq!(paper.len(), 5);
         }
     }
 

@@ -46,8 +46,8 @@ pub struct CrownSettings {
     pub order: SliceOrder,
     /// How many of the furthest slices of each slicing are left out, as the paper allows (§2.3).
     pub left_out: u32,
-    /// Whether the crown is lit by the scene; else it has the colours of its pictures.
-    pub lit: bool,
+    /// What lights the crown.
+    pub lighting: CrownLighting,
     /// Whether each slice has a frame, as in the paper's Figure 3.
     pub frames: bool,
 }
@@ -58,7 +58,7 @@ impl Default for CrownSettings {
             composition: Composition::default(),
             order: SliceOrder::default(),
             left_out: 0,
-            lit: true,
+            lighting: CrownLighting::default(),
             frames: false,
         }
     }
@@ -77,7 +77,27 @@ pub enum Composition {
     Hashed,
 }
 
-/// Multiplies the colours of a [`SlicedCrown`], so that neighbours differ: 8 bits of sRGB a channel, 1 at most.
+/// What lights a [`SlicedCrown`]. A blended crown is some ten slices deep and lit in each, so that light is what costs
+/// most; the figures are shares of what [`Full`](Self::Full) takes on a software driver.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum CrownLighting {
+    /// As Bevy lights a `StandardMaterial`: every kind of light, environment maps, gloss, filtered shadows.
+    Full,
+    /// Directional lights with their shadow maps, ambient light and fog. Leaves scatter light evenly, gloss included, and
+    /// shadows are looked up without a filter, whose work the layers of the crown do. About half of `Full`, and in a
+    /// picture of a grove no further from the mesh.
+    ///
+    /// While the world has a point, spot or rectangular light, an environment map, an irradiance volume, a light with a
+    /// texture or an atmosphere, even a hidden one, such crowns are lit as by `Full`.
+    #[default]
+    Simple,
+    /// By nothing: the crown has the colours of its pictures, in fog. About a quarter of `Full`.
+    Unlit,
+}
+
+/// Multiplies the light that a [`SlicedCrown`] sends back, channel by channel, so that neighbours differ, as the base colour
+/// of a `StandardMaterial` multiplies its texture. From 0 to 1 in linear light, kept as a root of 8 bits; alpha means nothing.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct CrownTint(pub Color);
@@ -91,7 +111,10 @@ impl Default for CrownTint {
 impl CrownTint {
     /// The tint as the shaders get it, and in the fourth byte what tells a crown's lots from its neighbours'.
     pub(super) fn tag(self, seed: u8) -> u32 {
-        let [r, g, b, _] = self.0.to_srgba().to_u8_array();
+        let [r, g, b, _] = self.0.to_linear().to_f32_array().map(|light| {
+            // Roots are as fine in the dark as in the light.
+            (255.0 * light.clamp(0.0, 1.0).sqrt()).round() as u8
+        });
         u32::from_le_bytes([r, g, b, seed])
     }
 }

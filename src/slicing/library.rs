@@ -13,6 +13,7 @@ use bevy::render::render_resource::{
 use bevy::render::storage::ShaderBuffer;
 
 use super::component::{CrownSettings, CrownTint, SlicedCrown};
+use super::lights::CrownLights;
 use super::material::{CrownUniform, SlicedCrownMaterial};
 use super::mesh::crown_mesh;
 use super::slicing::Slicing;
@@ -88,6 +89,7 @@ impl Shared {
         slicing: &Slicing,
         settings: CrownSettings,
         wind: Vec3,
+        lights: &CrownLights,
         assets: &mut CrownAssets,
     ) -> Handle<SlicedCrownMaterial> {
         let make = || {
@@ -97,6 +99,7 @@ impl Shared {
                 color: self.color.clone(),
                 normal: self.normal.clone(),
                 settings,
+                lighting: lights.lighting(settings.lighting),
             })
         };
         self.materials.entry(settings).or_insert_with(make).clone()
@@ -169,6 +172,7 @@ pub(crate) fn attach(
     mut assets: CrownAssets,
     slicings: Res<Assets<Slicing>>,
     wind: Res<Wind>,
+    lights: CrownLights,
     crowns: Query<(Entity, &SlicedCrown, &CrownSettings), Unattached>,
 ) {
     if crowns.is_empty() {
@@ -181,7 +185,7 @@ pub(crate) fn attach(
         };
         let shared = library.shared.entry(handle.id());
         let shared = shared.or_insert_with(|| Shared::new(slicing, &mut assets));
-        let material = shared.material(slicing, *settings, wind, &mut assets);
+        let material = shared.material(slicing, *settings, wind, &lights, &mut assets);
         commands.entity(entity).try_insert((
             Mesh3d(shared.mesh.clone()),
             MeshMaterial3d(material),
@@ -228,6 +232,27 @@ pub(crate) fn follow_wind(
     for material in all.flat_map(|shared| shared.materials.values()) {
         if let Some(mut material) = materials.get_mut(material) {
             material.crown.wind = wind;
+        }
+    }
+}
+
+/// Tells the materials which lighting the scene's lights call for.
+pub(crate) fn follow_lights(
+    library: Res<CrownLibrary>,
+    mut materials: ResMut<Assets<SlicedCrownMaterial>>,
+    lights: CrownLights,
+) {
+    for handle in library
+        .shared
+        .values()
+        .flat_map(|shared| shared.materials.values())
+    {
+        let lighting = |material: &SlicedCrownMaterial| lights.lighting(material.settings.lighting);
+        let is_other = |material: &SlicedCrownMaterial| material.lighting != lighting(material);
+        if materials.get(handle).is_some_and(is_other)
+            && let Some(mut material) = materials.get_mut(handle)
+        {
+            material.lighting = lighting(&material);
         }
     }
 }

@@ -16,7 +16,7 @@ use bevy::render::storage::ShaderBuffer;
 use bevy::shader::ShaderRef;
 
 use super::blend::SliceOrder;
-use super::component::{Composition, CrownSettings};
+use super::component::{Composition, CrownLighting, CrownSettings};
 use super::limits::MAX_ORIENTATIONS;
 use super::mesh::ATTRIBUTE_CORNER;
 use super::slicing::SlicingShape;
@@ -86,7 +86,7 @@ impl CrownUniform {
 
 /// The material of all crowns of one slicing that have the same settings. Made by the plugin.
 #[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
-#[bind_group_data(CrownSettings)]
+#[bind_group_data(CrownKey)]
 pub struct SlicedCrownMaterial {
     #[uniform(0)]
     pub(crate) crown: CrownUniform,
@@ -98,14 +98,27 @@ pub struct SlicedCrownMaterial {
     #[texture(4, dimension = "2d_array")]
     pub(crate) normal: Handle<Image>,
     pub(crate) settings: CrownSettings,
+    /// What lights the crowns in this scene.
+    pub(crate) lighting: CrownLighting,
 }
 
-impl From<&SlicedCrownMaterial> for CrownSettings {
+/// What tells pipelines apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct CrownKey {
+    composition: Composition,
+    order: SliceOrder,
+    lighting: CrownLighting,
+    frames: bool,
+}
+
+impl From<&SlicedCrownMaterial> for CrownKey {
     fn from(material: &SlicedCrownMaterial) -> Self {
-        // What only the uniform depends on does not tell pipelines apart.
+        let settings = material.settings;
         Self {
-            left_out: 0,
-            ..material.settings
+            composition: settings.composition,
+            order: settings.order,
+            lighting: material.lighting,
+            frames: settings.frames,
         }
     }
 }
@@ -153,13 +166,17 @@ impl Material for SlicedCrownMaterial {
             .get_layout(&[ATTRIBUTE_CORNER.at_shader_location(0)])?;
         descriptor.vertex.buffers = vec![corners];
         descriptor.primitive.cull_mode = None;
-        let settings = key.bind_group_data;
+        let crown = key.bind_group_data;
         let light = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
         for (set, def) in [
-            (settings.composition == Composition::Hashed, "CROWN_HASHED"),
-            (settings.order == SliceOrder::Paper, "CROWN_PAPER_ORDER"),
-            (settings.lit, "CROWN_LIT"),
-            (settings.frames, "CROWN_FRAMES"),
+            (crown.composition == Composition::Hashed, "CROWN_HASHED"),
+            (crown.order == SliceOrder::Paper, "CROWN_PAPER_ORDER"),
+            (crown.lighting == CrownLighting::Full, "CROWN_FULL_LIGHT"),
+            (
+                crown.lighting == CrownLighting::Simple,
+                "CROWN_SIMPLE_LIGHT",
+            ),
+            (crown.frames, "CROWN_FRAMES"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
         ] {
             if set {

@@ -14,7 +14,8 @@
 //! 3. For each view, the vertex shader picks the slicings of least discrepancy angle from the eye's position, their
 //!    opacities and the order of their slices (`blend.rs`, `shaders/blend.wgsl`), and places the slices
 //!    (`shaders/place.wgsl`). The fragment shaders light them by their baked normals, with the scene's lights, shadow maps
-//!    and fog (`shaders/forward.wgsl`), or let them cast shadows (`shaders/prepass.wgsl`).
+//!    and fog (`shaders/forward.wgsl`), in a way that suits what is there (`lights.rs`, `shaders/simple.wgsl`), or let them
+//!    cast shadows (`shaders/prepass.wgsl`).
 //!
 //! # How crowns are sorted
 //! Blended crowns are items of Bevy's transparent phase rather than of a pass of their own: so they are in right order
@@ -25,10 +26,12 @@
 //! * Slices of a rank are drawn in the order of their orientations instead of the secondary before the primary one.
 //!   Orientations only come and go at opacity 0, so nothing pops where primary and secondary are swapped. The paper's
 //!   order is kept as [`SliceOrder::Paper`].
+//! * Blended slicings cover together what one of them covers alone, place by place ([`blend::covered`]), instead of by one
+//!   correction f_c for the whole crown.
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
 //! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
 //! * Levels of fewer slices take over with distance, faded into one another.
-//! * Directional lights see the one slicing that faces them.
+//! * Directional lights see the one slicing that faces them, in fewer slices than the eye.
 //! * Wind moves near slices more than far ones; see [`wind`](crate::wind).
 //!
 //! # What it does not do
@@ -42,6 +45,7 @@ mod component;
 mod document;
 mod error;
 mod library;
+mod lights;
 mod limits;
 mod loader;
 mod material;
@@ -68,7 +72,7 @@ pub use bake::{
     Separation, bake, bake_with_progress, separate,
 };
 pub use blend::{DrawnSlice, SliceOrder};
-pub use component::{Composition, CrownSettings, CrownTint, SlicedCrown};
+pub use component::{Composition, CrownLighting, CrownSettings, CrownTint, SlicedCrown};
 pub use document::{Picture, SlicingDocument, read_picture};
 pub use error::{SlicingError, SlicingFileError, SlicingFileErrorKind};
 pub use limits::{
@@ -92,8 +96,10 @@ impl Plugin for SlicingPlugin {
     fn build(&self, app: &mut App) {
         load_shader_library!(app, "shaders/types.wgsl");
         load_shader_library!(app, "shaders/blend.wgsl");
+        load_shader_library!(app, "shaders/lots.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/look.wgsl");
+        load_shader_library!(app, "shaders/simple.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/prepass.wgsl");
 
@@ -112,6 +118,7 @@ impl Plugin for SlicingPlugin {
                     library::forget,
                     library::follow_slicings,
                     library::attach,
+                    library::follow_lights,
                     library::follow_wind.run_if(resource_changed::<Wind>),
                     library::tint,
                 )

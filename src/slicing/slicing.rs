@@ -42,9 +42,10 @@ pub struct SlicingShape {
     pub pixels: u32,
     /// Slices of an orientation in each level of detail, the finest level first.
     pub levels: Vec<u32>,
-    /// Distances, in radii, at which each level gives over to the next; one fewer than levels.
+    /// Distances, in radii, at which each level gives over to the next, on the screen of
+    /// [`FOCAL`](super::blend::FOCAL): it is the size on screen that counts. One fewer than levels.
     pub switches: Vec<f32>,
-    /// m_s: how much more opaque blended slicings are drawn (§2.3).
+    /// m_s: how much more opaque blended slicings are drawn in the paper's order (§2.3).
     pub correction: f32,
     /// Whether orientations are spread over the sphere, so that the three nearest blend; else the two nearest do.
     pub sphere: bool,

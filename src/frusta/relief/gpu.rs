@@ -1,5 +1,7 @@
 //! Maps and settings in the render world.
 
+use std::sync::{Arc, OnceLock};
+
 use bevy::asset::AssetId;
 use bevy::image::Image;
 use bevy::platform::collections::HashMap;
@@ -15,9 +17,10 @@ use bevy::render::render_resource::{
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bytemuck::{Pod, Zeroable};
 
+use super::ceilings::{ceilings, first_ceilings};
 use super::library::ReliefMaps;
 use super::map::ReliefMap;
-use super::settings::{Relief, ReliefSteps, ReliefThickness};
+use super::settings::{Relief, ReliefMarch, ReliefSteps, ReliefThickness};
 
 /// The textures of all relief maps in use. Lives in the render world.
 #[derive(Resource, Default)]
@@ -28,17 +31,18 @@ pub struct ReliefTextures {
     by_image: HashMap<AssetId<Image>, ReliefTexture>,
 }
 
-#[derive(Clone)]
 struct ReliefTexture {
     version: u32,
+    map: Arc<ReliefMap>,
     view: TextureView,
-    size: [u32; 2],
-    range: [u8; 2],
+    /// The heights in red and the ceilings in green, once a material leaps.
+    with_ceilings: OnceLock<TextureView>,
 }
 
-/// Greatest number of steps, and of halvings, that a setting may ask for.
+/// Greatest number of steps, of halvings, and of steps towards the light that a setting may ask for.
 const MOST_STEPS: u32 = 1024;
 const MOST_BISECTIONS: u32 = 16;
+const MOST_SELF_SHADOW: u32 = 64;
 
 /// The settings of one material, as `shaders/shell_radii.wgsl` has them.
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
@@ -54,7 +58,10 @@ struct ReliefUniform {
     /// Pixels of the map.
     size: [f32; 2],
     bisections: u32,
-    unused: [u32; 3],
+    self_shadow: u32,
+    unused: [u32; 2],
+    /// Where the ceilings of each mip level begin.
+    ceilings: [u32; 16],
 }
 
 /// What a material binds for relief.
@@ -105,10 +112,18 @@ impl ReliefBindings {
         relief: Option<&Relief>,
         textures: &ReliefTextures,
         device: &RenderDevice,
+        queue: &RenderQueue,
     ) -> Option<[OwnedBindingResource; Self::COUNT as usize]> {
         let texture = match relief {
             Some(relief) => textures.by_image.get(&relief.map.id())?,
             None => textures.flat.as_ref()?,
+        };
+        let leaps = relief.is_some_and(|relief| relief.march == ReliefMarch::Leaping);
+        let view = if leaps {
+            let made = || heights_and_ceilings(&texture.map, device, queue);
+            texture.with_ceilings.get_or_init(made)
+        } else {
+            &texture.view
         };
         let uniform = relief.map_or_else(ReliefUniform::default, |relief| uniform(relief, texture));
         let buffer = device.create_buffer_with_data(&BufferInitDescriptor {
@@ -118,7 +133,7 @@ impl ReliefBindings {
         });
         Some([
             OwnedBindingResource::Buffer(buffer),
-            OwnedBindingResource::TextureView(TextureViewDimension::D2, texture.view.clone()),
+            OwnedBindingResource::TextureView(TextureViewDimension::D2, view.clone()),
             OwnedBindingResource::Sampler(
                 SamplerBindingType::Filtering,
                 textures.sampler.as_ref()?.clone(),
@@ -147,12 +162,14 @@ fn uniform(relief: &Relief, texture: &ReliefTexture) -> ReliefUniform {
         },
         // A level map has a shell of one level, at the foot of which it is.
         range: {
-            let [low, high] = texture.range.map(f32::from);
+            let [low, high] = texture.map.range.map(f32::from);
             [low / 255.0, high.max(low + 1.0) / 255.0]
         },
-        size: texture.size.map(|side| side as f32),
+        size: texture.map.size.map(|side| side as f32),
         bisections: relief.bisections.min(MOST_BISECTIONS),
-        unused: [0; 3],
+        self_shadow: relief.self_shadow.min(MOST_SELF_SHADOW),
+        unused: [0; 2],
+        ceilings: first_ceilings(texture.map.size),
     }
 }
 
@@ -164,7 +181,7 @@ pub(crate) fn upload(
     queue: Res<RenderQueue>,
 ) {
     if textures.flat.is_none() {
-        textures.flat = Some(texture(&ReliefMap::flat(), 0, &device, &queue));
+        textures.flat = Some(texture(Arc::new(ReliefMap::flat()), 0, &device, &queue));
         textures.sampler = Some(device.create_sampler(&SamplerDescriptor {
             label: Some("frusta_relief"),
             address_mode_u: AddressMode::Repeat,
@@ -183,7 +200,7 @@ pub(crate) fn upload(
         let known = textures.by_image.remove(id);
         let texture = match known {
             Some(known) if known.version == entry.version => known,
-            _ => texture(&entry.map, entry.version, &device, &queue),
+            _ => texture(entry.map.clone(), entry.version, &device, &queue),
         };
         kept.insert(*id, texture);
     }
@@ -191,11 +208,44 @@ pub(crate) fn upload(
 }
 
 fn texture(
-    map: &ReliefMap,
+    map: Arc<ReliefMap>,
     version: u32,
     device: &RenderDevice,
     queue: &RenderQueue,
 ) -> ReliefTexture {
+    let heights = map.levels.concat();
+    let view = view(&map, TextureFormat::R8Unorm, &heights, device, queue);
+    ReliefTexture {
+        version,
+        map,
+        view,
+        with_ceilings: OnceLock::new(),
+    }
+}
+
+fn heights_and_ceilings(
+    map: &ReliefMap,
+    device: &RenderDevice,
+    queue: &RenderQueue,
+) -> TextureView {
+    let mut pixels: Vec<[u8; 2]> = (map.levels.concat().into_iter())
+        .map(|height| [height, 0])
+        .collect();
+    for (pixel, ceiling) in pixels.iter_mut().zip(ceilings(map).concat()) {
+        pixel[1] = ceiling;
+    }
+    let pixels = pixels.as_flattened();
+    view(map, TextureFormat::Rg8Unorm, pixels, device, queue)
+}
+
+/// A texture of all of a map's levels.
+fn view(
+    map: &ReliefMap,
+    format: TextureFormat,
+    pixels: &[u8],
+    device: &RenderDevice,
+    queue: &RenderQueue,
+) -> TextureView {
     let [width, height] = map.size;
     let texture = device.create_texture_with_data(
         queue,
@@ -209,17 +259,12 @@ fn texture(
             mip_level_count: map.levels.len() as u32,
             sample_count: 1,
             dimension: TextureDimension::D2,
-            format: TextureFormat::R8Unorm,
+            format,
             usage: TextureUsages::TEXTURE_BINDING | TextureUsages::COPY_DST,
             view_formats: &[],
         },
         TextureDataOrder::MipMajor,
-        &map.levels.concat(),
+        pixels,
     );
-    ReliefTexture {
-        version,
-        view: texture.create_view(&TextureViewDescriptor::default()),
-        size: map.size,
-        range: map.range,
-    }
+    texture.create_view(&TextureViewDescriptor::default())
 }

@@ -104,16 +104,15 @@ impl ReliefMap {
     }
 
     /// A map of rows from v = 0 on; there are as many pixels as the size says, at least one.
-    fn new(size: [u32; 2], heights: Vec<u8>) -> Self {
+    pub(super) fn new(size: [u32; 2], heights: Vec<u8>) -> Self {
         let lowest = heights.iter().copied().min().unwrap_or(0);
         let highest = heights.iter().copied().max().unwrap_or(0);
         let mut levels = vec![heights];
         let mut side = size;
         while side != [1, 1] {
             let finest = levels.last().expect("there is one from the start");
-            let (level, half) = reduced(finest, side);
-            levels.push(level);
-            side = half;
+            levels.push(reduced(finest, side));
+            side = half(side);
         }
         Self {
             size,
@@ -129,10 +128,15 @@ impl ReliefMap {
     }
 }
 
+/// Size of the mip level after one of this size.
+pub(super) fn half(size: [u32; 2]) -> [u32; 2] {
+    size.map(|side| (side / 2).max(1))
+}
+
 /// The next mip level: each pixel the mean of those that it covers. Odd sides are covered whole, by weights (as
 /// for textures whose sides are no powers of two in general).
-fn reduced(level: &[u8], [width, height]: [u32; 2]) -> (Vec<u8>, [u32; 2]) {
-    let half = [(width / 2).max(1), (height / 2).max(1)];
+fn reduced(level: &[u8], [width, height]: [u32; 2]) -> Vec<u8> {
+    let half = half([width, height]);
     // By rows first, then by columns, in integers: a box that covers `side / half` pixels.
     let (across, along) = (spans(width, half[0]), spans(height, half[1]));
     let mut reduced = Vec::with_capacity((half[0] * half[1]) as usize);
@@ -148,7 +152,7 @@ fn reduced(level: &[u8], [width, height]: [u32; 2]) -> (Vec<u8>, [u32; 2]) {
             reduced.push((sum / weights).round() as u8);
         }
     }
-    (reduced, half)
+    reduced
 }
 
 /// For each of `to` pixels, those of `from` that it covers, and by how much.

@@ -10,8 +10,10 @@
 //! 3. Plants with relief are cut by the planes of half its height, one for the whole shell, so that every point of space
 //!    has one owner (`math/shell.rs`).
 //! 4. `gpu.rs` hands map and settings to the shaders; `shaders/relief.wgsl` finds u, v and height of a point,
-//!    `shaders/march.wgsl` marches.
+//!    `shaders/march.wgsl` marches; where a material asks for leaps, `shaders/leap.wgsl` tells from the greatest heights
+//!    about a point (`ceilings.rs`) which steps are in air.
 
+mod ceilings;
 mod gpu;
 mod library;
 mod map;
@@ -20,4 +22,4 @@ mod settings;
 pub(crate) use gpu::{ReliefBindings, ReliefTextures, upload};
 pub(crate) use library::{ReliefMaps, follow_maps};
 pub use map::{ReliefMap, ReliefMapError};
-pub use settings::{Relief, ReliefSteps, ReliefThickness, ReliefV, relief_material};
+pub use settings::{Relief, ReliefMarch, ReliefSteps, ReliefThickness, ReliefV, relief_material};

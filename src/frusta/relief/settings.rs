@@ -2,6 +2,7 @@
 
 use bevy::prelude::*;
 
+use crate::frusta::double::shell as double;
 use crate::frusta::material::{FrustaMaterial, frusta_material};
 use crate::frusta::single::shell::{ShellShape, Thickness};
 
@@ -36,11 +37,17 @@ pub struct Relief {
     pub level: f32,
     /// How many steps a ray takes through the shell. More find thinner features.
     pub steps: ReliefSteps,
+    /// Whether steps through air are taken one by one or leapt over.
+    pub march: ReliefMarch,
     /// Halvings of the step in which a ray meets the relief, at most 16. Each halves the error of depth and texture
     /// coordinates.
     pub bisections: u32,
     /// How v is found along a ray.
     pub v: ReliefV,
+    /// Steps of a march from each hit towards the main light, the first directional one: the shadow that ribs and bark
+    /// cast on their own segment, which shadow maps are too coarse for. 0 for none (the default), at most 64; 8 are
+    /// enough for most. Only where materials are lit forward.
+    pub self_shadow: u32,
 }
 
 impl Relief {
@@ -51,8 +58,10 @@ impl Relief {
             thickness,
             level: 0.0,
             steps: ReliefSteps::default(),
+            march: ReliefMarch::default(),
             bisections: 4,
             v: ReliefV::default(),
+            self_shadow: 0,
         }
     }
 
@@ -68,6 +77,12 @@ impl Relief {
         self
     }
 
+    /// The same with shadows that it casts on itself, by so many steps.
+    pub fn with_self_shadow(mut self, steps: u32) -> Self {
+        self.self_shadow = steps;
+        self
+    }
+
     /// The shell, or `None` if it has no thickness.
     pub fn shell(&self) -> Option<ShellShape> {
         let shape = ShellShape {
@@ -78,6 +93,18 @@ impl Relief {
             level: self.level,
         };
         (shape.thickness.at(1.0) > 0.0).then_some(shape)
+    }
+
+    /// The same shell as [`MeshRelief`](crate::frusta::MeshRelief) has it, for polygons of the same surface.
+    pub fn mesh_shell(&self) -> Option<double::ShellShape> {
+        let shape = self.shell()?;
+        Some(double::ShellShape {
+            thickness: match shape.thickness {
+                Thickness::Metres(h) => double::Thickness::Metres(f64::from(h)),
+                Thickness::Relative(share) => double::Thickness::Relative(f64::from(share)),
+            },
+            level: f64::from(shape.level),
+        })
     }
 }
 
@@ -103,6 +130,18 @@ pub enum ReliefSteps {
     Auto,
     /// So many, 1 to 1024.
     Fixed(u32),
+}
+
+/// How a ray gets through the air above the relief. Both look at the same steps of the same ray and find the same hit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum ReliefMarch {
+    /// Looks at every step (the paper's choice, §3).
+    #[default]
+    Uniform,
+    /// Leaps over steps that a mip level of greatest heights tells to be in air. Takes twice the memory for the map.
+    /// Worth it with many steps only: `docs/speed_accuracy.md` charts both.
+    Leaping,
 }
 
 /// How v is found at a point of a ray. `docs/limits.md` charts by how much interpolation is off.

@@ -12,6 +12,9 @@
 #import bevy_verdure::frusta::relief::{Shell, coordinates, height, map_density, mip_level, part_of}
 #import bevy_verdure::frusta::shell_radii::relief
 #import bevy_verdure::frusta::view::pixel_width
+#ifdef FRUSTA_LEAPING
+#import bevy_verdure::frusta::leap::{ceiling_levels, ceiling_level, ceiling_over, is_sure, leap}
+#endif
 
 // Steps of a march that picks their number: at least, and at most.
 const LEAST_STEPS: f32 = 3.0;
@@ -97,6 +100,28 @@ fn joined(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {
     return vec2(min(a.x, b.x), max(a.y, b.y));
 }
 
+// v where a ray enters and leaves the shell.
+struct VEnds {
+    interpolated: bool,
+    entry: f32,
+    exit: f32,
+}
+
+// The coordinates of a point of a ray, `share` of the way from where it enters to where it leaves.
+fn coordinates_at(shell: Shell, point: vec3<f32>, ends: VEnds, share: f32) -> vec3<f32> {
+    var c = coordinates(shell, point);
+    if ends.interpolated {
+        c.y = mix(ends.entry, ends.exit, share);
+    }
+    return c;
+}
+
+// How fast a ray passes over the surface below a point: its part across the direction away from the axis.
+fn tangential(radial: vec3<f32>, d: vec3<f32>) -> f32 {
+    let across = radial / max(length(radial), 1e-6);
+    return length(d - across * dot(d, across));
+}
+
 // Where a ray meets the relief.
 struct ReliefHit {
     hit: Hit,
@@ -139,15 +164,15 @@ fn march(ray: Ray, shell: Shell, least_t: f32, exact: bool) -> ReliefHit {
     let lod = mip_level(pixel * densest);
     var steps = f32(relief.steps);
     if relief.steps == 0u {
-        let across = radial / max(distance, 1e-6);
-        let run = d * (span.y - span.x);
-        let tangential = length(run - across * dot(run, across));
-        steps = clamp(ceil(tangential / max(pixel, 1.0 / densest)) + 1.0, LEAST_STEPS, MOST_STEPS);
+        let pixels = tangential(radial, d) * (span.y - span.x) / max(pixel, 1.0 / densest);
+        steps = clamp(ceil(pixels) + 1.0, LEAST_STEPS, MOST_STEPS);
     }
 
+    var ends = VEnds(false, 0.0, 0.0);
 #ifdef FRUSTA_INTERPOLATED_V
-    let ends = vec2(coordinates(shell, entry).y, coordinates(shell, p + d * span.y).y);
-    let interpolated = dot(shell.top.start.normal, shell.top.end.normal) > BENT;
+    ends.interpolated = dot(shell.top.start.normal, shell.top.end.normal) > BENT;
+    ends.entry = coordinates(shell, entry).y;
+    ends.exit = coordinates(shell, p + d * span.y).y;
 #endif
     var above = span.x;
     var below = span.x;
@@ -155,14 +180,41 @@ fn march(ray: Ray, shell: Shell, least_t: f32, exact: bool) -> ReliefHit {
     var under = 0.0;
     var was_above = false;
     var is_hit = false;
+#ifdef FRUSTA_LEAPING
+    let levels = ceiling_levels(lod);
+    var level = ceiling_level(tangential(radial, d) * (span.y - span.x) * densest, levels);
+    let step = (span.y - span.x) / steps;
+    var above_c = vec3(0.0);
+    var is_over_known = false;
+#endif
     for (var i = 0.0; i <= steps; i += 1.0) {
         let t = span.x + (span.y - span.x) * (i / steps);
         let point = p + d * t;
-        var c = coordinates(shell, point);
-#ifdef FRUSTA_INTERPOLATED_V
-        if interpolated {
-            c.y = mix(ends.x, ends.y, i / steps);
+        let c = coordinates_at(shell, point, ends, i / steps);
+#ifdef FRUSTA_LEAPING
+        let ceiling = ceiling_over(shell, c, level);
+        if c.z > ceiling {
+            above = t;
+            above_c = c;
+            was_above = true;
+            is_over_known = false;
+            let leapt = min(floor(leap(shell, point, d, ceiling, level) / step), steps - i);
+            if leapt >= 2.0 {
+                let landing_t = span.x + (span.y - span.x) * ((i + leapt) / steps);
+                let landing = p + d * landing_t;
+                let landing_c = coordinates_at(shell, landing, ends, (i + leapt) / steps);
+                if is_sure(shell, point, landing, c, landing_c, ceiling, level) {
+                    above = landing_t;
+                    above_c = landing_c;
+                    i += leapt;
+                    level = min(level + 1, levels.y);
+                    continue;
+                }
+            }
+            level = max(level - 1, levels.x);
+            continue;
         }
+        level = max(level - 1, levels.x);
 #endif
         let excess = c.z - height(shell, c.x, c.y, lod);
         if excess <= 0.0 {
@@ -171,6 +223,11 @@ fn march(ray: Ray, shell: Shell, least_t: f32, exact: bool) -> ReliefHit {
                 below = t;
                 under = excess;
                 is_hit = true;
+#ifdef FRUSTA_LEAPING
+                if was_above && !is_over_known {
+                    over = above_c.z - height(shell, above_c.x, above_c.y, lod);
+                }
+#endif
                 break;
             }
             was_above = false;
@@ -179,6 +236,9 @@ fn march(ray: Ray, shell: Shell, least_t: f32, exact: bool) -> ReliefHit {
             over = excess;
             was_above = true;
         }
+#ifdef FRUSTA_LEAPING
+        is_over_known = excess > 0.0;
+#endif
     }
     if !is_hit {
         if !(found.grounded && was_above) {
@@ -196,12 +256,7 @@ fn march(ray: Ray, shell: Shell, least_t: f32, exact: bool) -> ReliefHit {
         for (var i = 0u; i < relief.bisections; i++) {
             let t = 0.5 * (above + below);
             let point = p + d * t;
-            var c = coordinates(shell, point);
-#ifdef FRUSTA_INTERPOLATED_V
-            if interpolated {
-                c.y = mix(ends.x, ends.y, (t - span.x) / (span.y - span.x));
-            }
-#endif
+            let c = coordinates_at(shell, point, ends, (t - span.x) / (span.y - span.x));
             let excess = c.z - height(shell, c.x, c.y, lod);
             if excess <= 0.0 {
                 below = t;
@@ -215,14 +270,9 @@ fn march(ray: Ray, shell: Shell, least_t: f32, exact: bool) -> ReliefHit {
         below = mix(above, below, over / max(over - under, 1e-12));
     }
     let point = p + d * below;
-    let c = coordinates(shell, point);
+    let c = coordinates_at(shell, point, ends, (below - span.x) / (span.y - span.x));
     found.hit = Hit(below + t_c, point, part_of(shell, point));
     found.w = c.z;
     found.v = c.y;
-#ifdef FRUSTA_INTERPOLATED_V
-    if interpolated {
-        found.v = mix(ends.x, ends.y, (below - span.x) / (span.y - span.x));
-    }
-#endif
     return found;
 }

@@ -144,10 +144,14 @@ fn turn_of(shell: Shell, across: vec3<f32>, v: f32) -> f32 {
     return (atan2(dot(seen, side), dot(seen, shell.reference)) + v * shell.twist) / TAU;
 }
 
+// Where the map is read for (u, v).
+fn map_place(shell: Shell, u: f32, v: f32) -> vec2<f32> {
+    return (pbr_bindings::material.uv_transform * vec3(u, shell.v_start + shell.v_length * v, 1.0)).xy;
+}
+
 // The map's height at (u, v), between floor and top.
 fn height(shell: Shell, u: f32, v: f32, lod: f32) -> f32 {
-    let uv = (pbr_bindings::material.uv_transform * vec3(u, shell.v_start + shell.v_length * v, 1.0)).xy;
-    let h = textureSampleLevel(relief_map, relief_sampler, uv, lod).r;
+    let h = textureSampleLevel(relief_map, relief_sampler, map_place(shell, u, v), lod).r;
     return (h - relief.range.x) / (relief.range.y - relief.range.x);
 }
 

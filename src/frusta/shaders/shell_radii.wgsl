@@ -18,9 +18,12 @@ struct ReliefSettings {
     bisections: u32,
     // No digits at the end of a name: naga_oil hands the struct on with underscores added, as another type, and the
     // binding comes out twice.
+    // Steps towards the main light; 0 for none.
+    self_shadow: u32,
     unused_a: u32,
     unused_b: u32,
-    unused_c: u32,
+    // Where the ceilings of each mip level begin.
+    ceilings: array<vec4<u32>, 4>,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(103) var<uniform> relief: ReliefSettings;

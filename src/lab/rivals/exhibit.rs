@@ -7,7 +7,6 @@ use thiserror::Error;
 use super::dress::Wardrobe;
 use super::weight::Weight;
 use super::{March, Rival};
-use crate::frusta::double::shell::{ShellShape, Thickness};
 use crate::frusta::{MeshError, MeshRelief};
 use crate::lab::headless::Headless;
 use crate::plants::{Place, PlantPart, Planting};
@@ -243,7 +242,7 @@ fn spawn(
         } => {
             let height = |u: f64, v: f64| dress.height(u, v);
             let shell = dress.relief.as_ref().filter(|_| relief);
-            let shell = shell.and_then(double_shell);
+            let shell = shell.and_then(Relief::mesh_shell);
             let mesh = part.skeleton.to_mesh_parts(&MeshSettings {
                 subdivisions,
                 ends,
@@ -280,18 +279,6 @@ fn relief(relief: Option<&Relief>, march: Option<March>) -> Option<Relief> {
     let (mut relief, march) = (relief?.clone(), march?);
     march.apply(&mut relief);
     Some(relief)
-}
-
-/// The shell of a relief for polygons, which are made in double precision.
-fn double_shell(relief: &Relief) -> Option<ShellShape> {
-    relief.shell()?;
-    Some(ShellShape {
-        thickness: match relief.thickness {
-            ReliefThickness::Metres(h) => Thickness::Metres(f64::from(h)),
-            ReliefThickness::Relative(share) => Thickness::Relative(f64::from(share)),
-        },
-        level: f64::from(relief.level),
-    })
 }
 
 fn transform(place: &Place) -> Transform {

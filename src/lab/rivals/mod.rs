@@ -25,7 +25,7 @@ pub use judge::{AS_GOOD, Flips, Judge, Match, SUPERSAMPLING, aim};
 pub use view::fitting;
 pub use weight::Weight;
 
-use crate::frusta::{Relief, ReliefSteps, ReliefV};
+use crate::frusta::{Relief, ReliefMarch, ReliefSteps, ReliefV};
 
 /// How relief is marched: the settings of [`Relief`] that trade error for time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -36,6 +36,8 @@ pub struct March {
     pub bisections: u32,
     /// How v is found.
     pub v: ReliefV,
+    /// Whether steps are looked at one by one or leapt over.
+    pub march: ReliefMarch,
 }
 
 impl March {
@@ -44,6 +46,7 @@ impl March {
         steps: ReliefSteps::Fixed(256),
         bisections: 10,
         v: ReliefV::Exact,
+        march: ReliefMarch::Uniform,
     };
 
     /// Sets a relief's march.
@@ -51,6 +54,7 @@ impl March {
         relief.steps = self.steps;
         relief.bisections = self.bisections;
         relief.v = self.v;
+        relief.march = self.march;
     }
 }
 
@@ -65,6 +69,7 @@ impl Default for March {
             steps: relief.steps,
             bisections: relief.bisections,
             v: relief.v,
+            march: relief.march,
         }
     }
 }

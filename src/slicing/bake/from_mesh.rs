@@ -13,7 +13,8 @@ use super::source::{CrownMaterial, CrownMesh, CrownVertex};
 use super::texture::CrownTexture;
 
 impl CrownMaterial {
-    /// What a crown takes of a standard material: base colour, its texture, and its alpha mask. `mesh` names it in
+    /// What a crown takes of a standard material: base colour, its texture and where that lies, and
+    /// its alpha mask. `mesh` names it in
     /// errors.
     ///
     /// # Errors
@@ -45,6 +46,7 @@ impl CrownMaterial {
         Ok(Self {
             color,
             texture: texture.map(|texture| if opaque { texture.opaque() } else { texture }),
+            uv_transform: material.uv_transform,
             cutoff,
         })
     }

@@ -122,7 +122,7 @@ pub(super) fn rasterize(
             continue;
         }
         let material = &mesh.materials[triangle.material as usize];
-        let mask = material.texture.as_ref().filter(|_| material.cutoff > 0.0);
+        let is_masked = material.texture.is_some() && material.cutoff > 0.0;
         let [columns, rows] = face.range(projection.side);
         for y in rows {
             for x in face.span(y, &columns) {
@@ -137,10 +137,10 @@ pub(super) fn rasterize(
                 if !is_nearest || (is_large && o.slice_at(depth, count) != slice) {
                     continue;
                 }
-                if let Some(texture) = mask {
+                if is_masked {
                     let [a, b, c] = triangle.vertices.map(|vertex| vertex.uv);
                     let uv = a * weights.x + b * weights.y + c * weights.z;
-                    if texture.sample(uv)[3] * material.color[3] < material.cutoff {
+                    if material.sample(uv)[3] * material.color[3] < material.cutoff {
                         continue;
                     }
                 }

@@ -89,9 +89,9 @@ fn look(
         a.color[channel] * weights.x + b.color[channel] * weights.y + c.color[channel] * weights.z
     };
     let mut color: [f32; 4] = core::array::from_fn(|i| mix(i) * material.color[i]);
-    if let Some(texture) = &material.texture {
+    if material.texture.is_some() {
         let uv = a.uv * weights.x + b.uv * weights.y + c.uv * weights.z;
-        let texture = texture.sample(uv);
+        let texture = material.sample(uv);
         color = core::array::from_fn(|i| color[i] * texture[i]);
     }
     let normal = a.normal * weights.x + b.normal * weights.y + c.normal * weights.z;

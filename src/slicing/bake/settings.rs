@@ -16,14 +16,14 @@ pub struct BakeSettings {
     pub vertical: bool,
     /// Slices of an orientation, for each level of detail, the finest first: 1 to 3 levels of 1 to 64.
     pub levels: Vec<u32>,
-    /// Distances from the centroid, in radii of the crown, at which each level gives over to the next; one fewer than
-    /// levels.
+    /// Distances from the centroid, in radii of the crown, at which each level gives over to the next, on a screen of 480
+    /// lines of 52°; on others, where the crown is as small. One fewer than levels.
     pub switches: Vec<f32>,
     /// Pixels along each side of a slice: a power of two, 4 to 1024.
     pub pixels: u32,
     /// Samples along each side of a pixel, 1 to 8.
     pub samples: u32,
-    /// m_s of §2.3, 0 to 4: how much more opaque blended slicings are drawn, for their brightness.
+    /// m_s of §2.3, 0 to 4: how much more opaque blended slicings are drawn in the paper's order, for their brightness.
     pub correction: f32,
     /// Whether light from around is held back by the leaves it passes.
     pub occlusion: bool,

@@ -1,6 +1,6 @@
 //! What is baked: triangles in the plant's local space, with all that tells their colour.
 
-use bevy::math::{Mat3, Mat4, Vec2, Vec3};
+use bevy::math::{Affine2, Mat3, Mat4, Vec2, Vec3};
 
 use super::error::BakeError;
 use super::texture::CrownTexture;
@@ -15,6 +15,8 @@ pub struct CrownMaterial {
     pub color: [f32; 4],
     /// Base colour texture; `None` is white.
     pub texture: Option<CrownTexture>,
+    /// What vertices' texture coordinates go through before the texture is read.
+    pub uv_transform: Affine2,
     /// Where alpha is less than this there is a hole (an alpha mask); 0 for none.
     pub cutoff: f32,
 }
@@ -24,7 +26,18 @@ impl Default for CrownMaterial {
         Self {
             color: [1.0; 4],
             texture: None,
+            uv_transform: Affine2::IDENTITY,
             cutoff: 0.0,
+        }
+    }
+}
+
+impl CrownMaterial {
+    /// The place of the texture, linear with alpha, for a vertex's texture coordinates; white where there is no texture.
+    pub(super) fn sample(&self, uv: Vec2) -> [f32; 4] {
+        match &self.texture {
+            Some(texture) => texture.sample(self.uv_transform.transform_point2(uv)),
+            None => [1.0; 4],
         }
     }
 }

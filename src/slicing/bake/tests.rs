@@ -1,8 +1,11 @@
 //! What is promised of baking.
 
-use bevy::asset::RenderAssetUsages;
-use bevy::math::{Mat4, Vec2, Vec3};
+use bevy::asset::{Assets, RenderAssetUsages};
+use bevy::image::Image;
+use bevy::math::{Affine2, Mat4, Vec2, Vec3};
 use bevy::mesh::{Indices, Mesh, PrimitiveTopology};
+use bevy::pbr::StandardMaterial;
+use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 use proptest::prelude::*;
 
 use super::*;
@@ -219,6 +222,33 @@ fn octagons_hold_every_opaque_pixel() {
             assert!(pixel[3] == 0 || octagon::contains(outline, centre));
         }
     }
+}
+
+#[test]
+fn a_textures_transform_is_that_of_the_standard_material() {
+    let mut images = Assets::<Image>::default();
+    let texture = images.add(Image::new(
+        Extent3d {
+            width: 2,
+            height: 1,
+            ..Default::default()
+        },
+        TextureDimension::D2,
+        vec![255, 0, 0, 255, 0, 0, 255, 255],
+        TextureFormat::Rgba8UnormSrgb,
+        RenderAssetUsages::default(),
+    ));
+    let mut standard = StandardMaterial {
+        base_color_texture: Some(texture),
+        ..Default::default()
+    };
+    // A quarter into a texture of two pixels is the middle of the first, red one.
+    let place = Vec2::new(0.25, 0.5);
+    let red = CrownMaterial::from_standard("leaf", &standard, &images).unwrap();
+    assert_eq!(red.sample(place), [1.0, 0.0, 0.0, 1.0]);
+    standard.uv_transform = Affine2::from_translation(Vec2::new(0.5, 0.0));
+    let blue = CrownMaterial::from_standard("leaf", &standard, &images).unwrap();
+    assert_eq!(blue.sample(place), [0.0, 0.0, 1.0, 1.0]);
 }
 
 #[test]

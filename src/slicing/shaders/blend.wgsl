@@ -7,6 +7,8 @@
 const SLOTS: u32 = 3u;
 const RISE: vec2<f32> = vec2(0.5, 0.866);
 const FADE: f32 = 0.1;
+const FOCAL: f32 = 500.0;
+const SUREST: f32 = 0.96;
 
 struct Slot {
     orientation: u32,
@@ -119,13 +121,14 @@ fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
     return min(weight * (1.0 + correction * (1.0 - greatest)), 1.0);
 }
 
-// The slice that is drawn in the `number`th place, far to near, for an eye in a direction (unit) from the centroid and so
-// many radii away; of no opacity where there is none.
+fn covered(alpha: f32, weight: f32) -> f32 {
+    return (1.0 - pow(1.0 - SUREST * alpha, weight)) / SUREST;
+}
+
+// The slice that is drawn in the `number`th place, far to near, for an eye in a direction (unit) from the centroid and
+// apparently so many radii away; of no opacity where there is none.
 fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
-    let slots = slots(direction);
     let detail = levels(distance);
-    let greatest_weight = max(max(slots[0].weight, slots[1].weight), slots[2].weight);
-    let greatest = greatest_weight * max(detail.y, 1.0 - detail.y);
     // The coarser level comes first, where it shows at all.
     var level = u32(detail.x);
     var share = detail.y;
@@ -144,6 +147,8 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
     if rank >= count || rank < crown.left_out {
         return DrawnSlice(0u, 0u, 0u, 0.0);
     }
+    let slots = slots(direction);
+    let greatest = max(max(slots[0].weight, slots[1].weight), slots[2].weight);
     var slot = slots[0];
     if place % SLOTS == 1u {
         slot = slots[1];
@@ -155,12 +160,27 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
         slot.orientation,
         level,
         select(count - 1u - rank, rank, faces),
+#ifdef CROWN_PAPER_ORDER
         corrected(slot.weight * share, greatest, crown.correction),
+#else
+        slot.weight * share,
+#endif
     );
 }
 
-// The slices that cast shadows for light from a direction: those of the nearest orientation, in the finest level.
-fn cast_slice(number: u32, direction: vec3<f32>) -> DrawnSlice {
+// The slices that cast shadows for light from a direction: those of the nearest orientation, in the level next to that for
+// the size of the shadow map's pixels. What is next to the light comes first, and hides the rest from the depth test on.
+fn cast_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
+    let detail = levels(distance);
+#ifdef CROWN_PAPER_ORDER
+    let level = 0u;
+#else
+    let level = min(u32(detail.x) + select(1u, 2u, detail.y < 0.5), crown.levels.w - 1u);
+#endif
+    let count = crown.levels[level];
+    if number >= count {
+        return DrawnSlice(0u, 0u, 0u, 0.0);
+    }
     var nearest = 0u;
     var greatest = -2.0;
     for (var i = 0u; i < crown.orientation_count; i += 1u) {
@@ -170,5 +190,5 @@ fn cast_slice(number: u32, direction: vec3<f32>) -> DrawnSlice {
             greatest = cosine;
         }
     }
-    return DrawnSlice(nearest, 0u, number, select(0.0, 1.0, number < crown.levels.x));
+    return DrawnSlice(nearest, level, select(number, count - 1u - number, greatest >= 0.0), 1.0);
 }

@@ -2,13 +2,11 @@
 
 // The fragment stage of all passes: what a slice looks like at a place.
 
-#import bevy_pbr::mesh_bindings::mesh
-#import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
-#import bevy_verdure::slicing::types::{crown, color_texture, normal_texture, slice_sampler}
+#import bevy_verdure::slicing::types::{color_texture, normal_texture, slice_sampler}
+#import bevy_verdure::slicing::blend::covered
 #import bevy_verdure::slicing::place::Varying
 
-struct Look {
-    color: vec4<f32>,
+struct Facing {
     // World space.
     normal: vec3<f32>,
     // Share of the light from around.
@@ -17,8 +15,14 @@ struct Look {
 
 fn slice_color(in: Varying) -> vec4<f32> {
     var color = textureSample(color_texture, slice_sampler, in.uv, in.layer);
-    color = vec4(color.rgb * unpack4x8unorm(mesh[in.instance_index].tag).rgb, color.a);
+#ifdef CROWN_PAPER_ORDER
     color.a *= in.opacity;
+#else ifndef CROWN_LIGHT_VIEW
+    color.a = covered(color.a, in.opacity);
+#endif
+#ifndef CROWN_LIGHT_VIEW
+    color = vec4(color.rgb * in.tint, color.a);
+#endif
 #ifdef CROWN_FRAMES
 #ifndef PREPASS_PIPELINE
     let edge = min(min(in.uv.x, in.uv.y), min(1.0 - in.uv.x, 1.0 - in.uv.y));
@@ -30,41 +34,13 @@ fn slice_color(in: Varying) -> vec4<f32> {
     return color;
 }
 
-fn look(in: Varying) -> Look {
-    let color = slice_color(in);
+#ifndef CROWN_LIGHT_VIEW
+fn slice_facing(in: Varying) -> Facing {
     let baked = textureSample(normal_texture, slice_sampler, in.uv, in.layer);
-    let direction = crown.orientations[abs(in.orientation) - 1].direction;
-    var n = baked.xyz * 2.0 - 1.0;
-    if in.orientation < 0 {
-        // From behind, the other side of each leaf is seen.
-        n -= 2.0 * max(dot(n, direction), 0.0) * direction;
-    }
-    let turn = mat2x4_f32_to_mat3x3_unpack(
-        mesh[in.instance_index].local_from_world_transpose_a,
-        mesh[in.instance_index].local_from_world_transpose_b,
-    );
-    let normal = turn * n;
-    let is_none = dot(normal, normal) < 1e-12;
-    return Look(color, normalize(select(normal, turn * direction, is_none)), baked.a);
+    // The least length keeps a normal of nothing from becoming none.
+    var n = baked.xyz * 2.0 - (1.0 - 1e-6);
+    // From behind, the other side of each leaf is seen.
+    n -= 2.0 * max(dot(n, in.back), 0.0) * in.back;
+    return Facing(normalize(mat3x3(in.turn_x, in.turn_y, in.turn_z) * n), baked.a);
 }
-
-// Mixes the bits of a number: M. Jarzynski, M. Olano, Hash Functions for GPU Rendering (JCGT 2020).
-fn pcg(number: u32) -> u32 {
-    let state = number * 747796405u + 2891336453u;
-    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
-
-// Whether a place of an opacity is there: by chance, the same for each cell of the slice about the size of a pixel on
-// screen, so that it stays while the eye moves. `footprint` is what a pixel on screen covers of a slice.
-fn is_there(in: Varying, alpha: f32, footprint: f32) -> bool {
-    // Cells are of sizes in powers of two.
-    let cells = exp2(ceil(-log2(max(footprint, 1e-5))));
-    let cell = vec2<u32>(floor(in.uv * cells));
-    let number = pcg(cell.x + pcg(cell.y + pcg(in.layer + (mesh[in.instance_index].tag >> 24u) * 256u)));
-    return f32(number) * (1.0 / 4294967296.0) < alpha;
-}
-
-fn footprint(uv: vec2<f32>) -> f32 {
-    return max(length(dpdx(uv)), length(dpdy(uv)));
-}
+#endif

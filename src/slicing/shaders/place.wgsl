@@ -7,7 +7,8 @@
 #import bevy_render::globals::Globals
 #import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
 #import bevy_verdure::slicing::types::{crown, octagons, first_layer}
-#import bevy_verdure::slicing::blend::{drawn_slice, cast_slice}
+#import bevy_verdure::slicing::blend::{FOCAL, drawn_slice, cast_slice}
+#import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
 
 #ifdef PREPASS_PIPELINE
@@ -19,21 +20,40 @@
 // How far slices near to the eye flutter besides, as a share of the crown's sway.
 const FLUTTER: f32 = 0.25;
 
+// By what share of their spacing slices that cast shadows are moved away from the light.
+const DEEPER: f32 = 0.25;
+
 struct Corner {
     @builtin(instance_index) instance_index: u32,
     @location(0) corner: u32,
 }
 
+// What is the same all over a slice, or over a crown, is worked out here rather than for every pixel.
 struct Varying {
     @builtin(position) position: vec4<f32>,
-    @location(0) world_position: vec4<f32>,
-    @location(1) uv: vec2<f32>,
-    @location(2) @interpolate(flat) layer: u32,
-    @location(3) @interpolate(flat) opacity: f32,
-    @location(4) @interpolate(flat) instance_index: u32,
-    // Orientation of the slice, and in the sign whether its back is seen.
-    @location(5) @interpolate(flat) orientation: i32,
-    @location(6) local_position: vec3<f32>,
+    @location(0) uv: vec2<f32>,
+    @location(1) @interpolate(flat) layer: u32,
+    @location(2) @interpolate(flat) opacity: f32,
+    @location(3) @interpolate(flat) instance_index: u32,
+    // Tells the lots of this slice from those of others.
+    @location(4) @interpolate(flat) lot: u32,
+#ifdef CROWN_LIGHT_VIEW
+    // Cells that lots are drawn for, along a side of the slice.
+    @location(5) @interpolate(flat) grid: f32,
+#else
+    // In linear light.
+    @location(5) @interpolate(flat) tint: vec3<f32>,
+    @location(6) world_position: vec3<f32>,
+    // Columns of the matrix that turns normals into world space.
+    @location(7) @interpolate(flat) turn_x: vec3<f32>,
+    @location(8) @interpolate(flat) turn_y: vec3<f32>,
+    @location(9) @interpolate(flat) turn_z: vec3<f32>,
+    // Direction of the slice, local, where its back is seen; else none.
+    @location(10) @interpolate(flat) back: vec3<f32>,
+#ifdef PREPASS_PIPELINE
+    @location(11) local_position: vec3<f32>,
+#endif
+#endif
 }
 
 fn world_from_local(instance_index: u32) -> mat3x3<f32> {
@@ -48,20 +68,44 @@ fn local_from_world(instance_index: u32) -> mat3x3<f32> {
     ));
 }
 
+// The tint of a crown: its square root in 8 bits a channel.
+fn tint(tag: u32) -> vec3<f32> {
+    let root = unpack4x8unorm(tag).rgb;
+    return root * root;
+}
+
 fn is_orthographic() -> bool {
     return view.clip_from_view[3].w == 1.0;
 }
 
-// Where the eye is, from the centroid, in local space, measured in radii. An orthographic eye is so near that the finest
-// level is drawn.
+// Where the eye is, from the centroid, in local space, measured in radii.
 fn eye_from_centroid(instance_index: u32) -> vec3<f32> {
     let to_local = local_from_world(instance_index);
     if is_orthographic() {
-        return normalize(to_local * view.world_from_view[2].xyz) * 1e-3;
+        return normalize(to_local * view.world_from_view[2].xyz);
     }
     let m = mesh[instance_index].world_from_local;
     let origin = vec3(m[0].w, m[1].w, m[2].w);
     return (to_local * (view.world_position - origin) - crown.centroid) / crown.radius;
+}
+
+// How many world metres a local one is.
+fn metre(instance_index: u32) -> f32 {
+    let m = mesh[instance_index].world_from_local;
+    return length(vec3(m[0].y, m[1].y, m[2].y));
+}
+
+// Pixels of the view for a metre: one metre away, or anywhere in an orthographic view.
+fn pixels_per_metre() -> f32 {
+    return 0.5 * view.viewport.w * view.clip_from_view[1].y;
+}
+
+// How many radii away a crown would be as small as it is here, on the screen that levels of detail are made for.
+fn apparent_distance(instance_index: u32, distance: f32) -> f32 {
+    if is_orthographic() {
+        return FOCAL / (crown.radius * metre(instance_index) * pixels_per_metre());
+    }
+    return distance * FOCAL / pixels_per_metre();
 }
 
 fn place_corner(in: Corner) -> Varying {
@@ -72,10 +116,11 @@ fn place_corner(in: Corner) -> Varying {
     let eye = eye_from_centroid(in.instance_index);
     let distance = length(eye);
     let direction = select(vec3(0.0, 0.0, 1.0), eye / distance, distance > 0.0);
+    let apparent = apparent_distance(in.instance_index, distance);
 #ifdef CROWN_LIGHT_VIEW
-    let slice = cast_slice(in.corner >> 3u, direction);
+    let slice = cast_slice(in.corner >> 3u, direction, apparent);
 #else
-    let slice = drawn_slice(in.corner >> 3u, direction, distance);
+    let slice = drawn_slice(in.corner >> 3u, direction, apparent);
 #endif
     if slice.opacity <= 0.0 {
         return out;
@@ -99,7 +144,7 @@ fn place_corner(in: Corner) -> Varying {
 #ifdef CROWN_LIGHT_VIEW
     // Leaves lie up to half the spacing before and behind the slice that their light meets, and before and behind that
     // which the eye sees: cast from a little deeper, few shade themselves, and those of one slice still shade each other.
-    depth -= 0.25 * spacing;
+    depth -= select(-DEEPER, DEEPER, dot(o.direction, direction) >= 0.0) * spacing;
 #endif
     let local = crown.centroid
         + o.right * (o.low.x + uv.x * size.x)
@@ -112,9 +157,8 @@ fn place_corner(in: Corner) -> Varying {
     if any(crown.wind.xyz != vec3(0.0)) {
         let foot_height = crown.centroid.y - crown.radius;
         let height = clamp((local.y - foot_height) / (2.0 * crown.radius), 0.0, 1.0);
-        // Flexibility is in local metres, of which one is so long in the world.
-        let metre = length(vec3(m[0].y, m[1].y, m[2].y));
-        moved = sway(crown.wind.xyz, origin, height, crown.flexibility * metre, globals.time);
+        // Flexibility is in local metres.
+        moved = sway(crown.wind.xyz, origin, height, crown.flexibility * metre(in.instance_index), globals.time);
         // Near slices move more than far ones, each in its own time.
         let nearness = (f32(slice.index) + 0.5) / f32(count);
         moved *= 1.0 + FLUTTER * nearness * sin(5.3 * globals.time + 2.4 * f32(slice.index) + dot(origin.xz, vec2(1.7)));
@@ -128,13 +172,29 @@ fn place_corner(in: Corner) -> Varying {
     clip.z = min(clip.z, 1.0);
 #endif
     out.position = clip;
-    out.world_position = vec4(from_eye + view.world_position, 1.0);
-    // Moved likewise in the frame before, so that motion vectors leave wind out.
-    out.local_position = local + local_from_world(in.instance_index) * moved;
     out.uv = uv;
     out.layer = layer;
     out.opacity = slice.opacity;
-    let number = i32(slice.orientation) + 1;
-    out.orientation = select(-number, number, dot(o.direction, direction) >= 0.0);
+    let tag = mesh[in.instance_index].tag;
+    out.lot = pcg(layer + (tag >> 24u) * 256u);
+#ifdef CROWN_LIGHT_VIEW
+    let width = max(size.x, size.y) * metre(in.instance_index) * pixels_per_metre();
+    out.grid = cells(1.0 / width);
+#else
+    out.tint = tint(tag);
+    out.world_position = from_eye + view.world_position;
+    let turn = mat2x4_f32_to_mat3x3_unpack(
+        mesh[in.instance_index].local_from_world_transpose_a,
+        mesh[in.instance_index].local_from_world_transpose_b,
+    );
+    out.turn_x = turn[0];
+    out.turn_y = turn[1];
+    out.turn_z = turn[2];
+    out.back = select(o.direction, vec3(0.0), dot(o.direction, direction) >= 0.0);
+#ifdef PREPASS_PIPELINE
+    // Moved likewise in the frame before, so that motion vectors leave wind out.
+    out.local_position = local + local_from_world(in.instance_index) * moved;
+#endif
+#endif
     return out;
 }

@@ -3,11 +3,20 @@
 #import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner}
-#import bevy_verdure::slicing::look::{look, slice_color, is_there, footprint}
+#import bevy_verdure::slicing::look::{slice_color, slice_facing}
+#import bevy_verdure::slicing::lots::{cells, footprint, is_there}
 
 @vertex
 fn vertex(corner: Corner) -> Varying {
     return place_corner(corner);
+}
+
+fn is_seen(in: Varying) -> bool {
+#ifdef CROWN_LIGHT_VIEW
+    return is_there(in.uv, in.grid, in.lot, slice_color(in).a);
+#else
+    return is_there(in.uv, cells(footprint(in.uv)), in.lot, slice_color(in).a);
+#endif
 }
 
 #ifdef PREPASS_FRAGMENT
@@ -26,17 +35,16 @@ struct Output {
 
 @fragment
 fn fragment(in: Varying) -> Output {
-    let seen = look(in);
-    if !is_there(in, seen.color.a, footprint(in.uv)) {
+    if !is_seen(in) {
         discard;
     }
     var out: Output;
 #ifdef NORMAL_PREPASS
-    out.normal = vec4(seen.normal * 0.5 + vec3(0.5), 1.0);
+    out.normal = vec4(slice_facing(in).normal * 0.5 + vec3(0.5), 1.0);
 #endif
 #ifdef MOTION_VECTOR_PREPASS
     let before = mesh_functions::get_previous_world_from_local(in.instance_index) * vec4(in.local_position, 1.0);
-    let clip = view.unjittered_clip_from_world * in.world_position;
+    let clip = view.unjittered_clip_from_world * vec4(in.world_position, 1.0);
     let clip_before = previous_view_uniforms.clip_from_world * before;
     // In texture coordinates: clip space is two wide, and its y points up.
     out.motion_vector = (clip.xy / clip.w - clip_before.xy / clip_before.w) * vec2(0.5, -0.5);
@@ -52,7 +60,7 @@ fn fragment(in: Varying) -> Output {
 
 @fragment
 fn fragment(in: Varying) {
-    if !is_there(in, slice_color(in).a, footprint(in.uv)) {
+    if !is_seen(in) {
         discard;
     }
 }

@@ -2,7 +2,9 @@
 
 mod agreement;
 mod bad_input;
+mod leaping;
 mod passes;
+mod self_shadow;
 
 use core::f32::consts::TAU;
 
@@ -28,15 +30,15 @@ fn bumps() -> HeightImage {
 }
 
 /// The same map as an image of the crate's users.
-fn image(map: &HeightImage) -> Image {
-    let heights = (0..MAP.x * MAP.y).map(|i| {
+fn image(map: &HeightImage, size: UVec2) -> Image {
+    let heights = (0..size.x * size.y).map(|i| {
         let at = |n: u32, side: u32| (f64::from(n) + 0.5) / f64::from(side);
-        (map.sample(at(i % MAP.x, MAP.x), at(i / MAP.x, MAP.y)) * 255.0).round() as u8
+        (map.sample(at(i % size.x, size.x), at(i / size.x, size.y)) * 255.0).round() as u8
     });
     Image::new(
         Extent3d {
-            width: MAP.x,
-            height: MAP.y,
+            width: size.x,
+            height: size.y,
             depth_or_array_layers: 1,
         },
         TextureDimension::D2,
@@ -48,7 +50,7 @@ fn image(map: &HeightImage) -> Image {
 
 /// Adds a map to a studio.
 fn add_map(studio: &mut Studio, map: &HeightImage) -> Handle<Image> {
-    let image = image(map);
+    let image = image(map, MAP);
     studio.world().resource_mut::<Assets<Image>>().add(image)
 }
 

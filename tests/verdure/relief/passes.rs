@@ -7,6 +7,7 @@ use bevy::light::CascadeShadowConfigBuilder;
 use bevy::material::OpaqueRendererMethod;
 use bevy::math::DVec3;
 use bevy::prelude::*;
+use bevy_verdure::frusta::ReliefV;
 use bevy_verdure::lab::reference::ReferenceSettings;
 use bevy_verdure::lab::reference::relief::{ReliefOptions, ReliefScene, ShellThickness};
 use bevy_verdure::lab::{NEAR, Pixels, Studio, mean_flip};
@@ -21,11 +22,19 @@ const SAME: f32 = 0.003;
 const SUN: Vec3 = Vec3::new(-0.7, -0.85, -0.35);
 
 fn lit(method: OpaqueRendererMethod, configure: impl FnOnce(&mut Studio)) -> Pixels {
+    lit_with(method, |relief| relief, configure)
+}
+
+fn lit_with(
+    method: OpaqueRendererMethod,
+    relief: impl Fn(Relief) -> Relief,
+    configure: impl FnOnce(&mut Studio),
+) -> Pixels {
     let base = StandardMaterial {
         opaque_render_method: method,
         ..Color::srgb(0.5, 0.4, 0.3).into()
     };
-    let mut studio = studio_with(&limb(0.75, 0.5), base, |relief| relief);
+    let mut studio = studio_with(&limb(0.75, 0.5), base, relief);
     studio.world().spawn((
         DirectionalLight {
             illuminance: 8_000.0,
@@ -68,6 +77,22 @@ fn deferred_lighting_sees_the_relief_that_the_main_pass_draws() {
     check_alike(&forward, &deferred);
     // The G-buffer packs normals and colours into bytes. Were the pictures the same, forward would have drawn both.
     assert!(forward.rgb_bytes() != deferred.rgb_bytes());
+}
+
+/// In all passes: leaps draw the steps' picture, with shadow maps and prepasses too.
+#[test]
+fn leaps_draw_what_steps_draw_in_every_pass() {
+    for v in [ReliefV::Exact, ReliefV::Interpolated] {
+        let [steps, leaps] = [ReliefMarch::Uniform, ReliefMarch::Leaping].map(|march| {
+            let relief = |relief| Relief { march, v, ..relief };
+            lit_with(OpaqueRendererMethod::Forward, relief, |studio| {
+                let camera = studio.camera();
+                let prepasses = (DepthPrepass, NormalPrepass, Msaa::Sample4);
+                studio.world().entity_mut(camera).insert(prepasses);
+            })
+        });
+        check_alike(&steps, &leaps);
+    }
 }
 
 fn check_alike(one: &Pixels, other: &Pixels) {

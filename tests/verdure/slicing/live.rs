@@ -3,11 +3,12 @@
 use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Studio};
 use bevy_verdure::prelude::*;
+use bevy_verdure::slicing::blend::FOCAL;
 use bevy_verdure::slicing::{SlicedCrownMaterial, SlicingShape};
 
 use crate::recovery::{lose_device, recovering_studio};
 
-use super::{CROWN, UNLIT, covered, eye, mean, plant, shot, studio};
+use super::{CROWN, SIZE, UNLIT, covered, eye, mean, plant, shot, studio};
 
 #[test]
 fn tints_settings_and_wind_follow_the_components() {
@@ -100,17 +101,22 @@ fn an_edited_slicing_shows_and_a_crown_no_more_is_gone() {
 fn far_crowns_have_fewer_slices_and_no_change_of_brightness() {
     let (mut studio, _) = studio(UNLIT);
     let radius = CROWN.shape().radius;
-    // From 8 to 30 radii, with a lens that keeps the crown's size.
-    let mut blues = Vec::new();
+    // From 8 to 30 radii on the screen that levels are made for, of 120 lines in this picture.
+    let fov = 0.6_f32;
+    let focal = 0.5 * SIZE.y as f32 / (0.5 * fov).tan();
+    let mut cover = Vec::new();
     for step in 0..=44 {
-        let distance = radius * (8.0 + 0.5 * step as f32);
-        let mut look = shot(eye(15.0, 3.0, distance));
-        look.lens = Lens::Perspective(2.0 * (1.3 * radius / distance).atan());
-        blues.push(mean(&studio.photograph(&look, Color::WHITE), 2));
+        let distance = (8.0 + 0.5 * step as f32) * focal / FOCAL;
+        let mut look = shot(eye(15.0, 3.0, radius * distance));
+        look.lens = Lens::Perspective(fov);
+        let missing = 255.0 - mean(&studio.photograph(&look, Color::WHITE), 2);
+        // Of the same crown further away less is seen by the square of the distance.
+        cover.push(missing * f64::from(distance * distance));
     }
-    for (step, pair) in blues.windows(2).enumerate() {
-        // Of 0 to 255 over a picture that the crown fills half.
-        assert!((pair[1] - pair[0]).abs() < 6.0, "{step}: {pair:?}");
+    println!("{cover:.0?}");
+    for (step, pair) in cover.windows(2).enumerate() {
+        let change = pair[1] / pair[0];
+        assert!((change - 1.0).abs() < 0.06, "{step}: {pair:?}");
     }
 }
 

@@ -2,12 +2,14 @@
 
 mod agreement;
 mod files;
+mod lighting;
 mod live;
 mod passes;
 mod steady;
 
 use std::sync::LazyLock;
 
+use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Pixels, Shot, Studio, broadleaf_crown};
 use bevy_verdure::plants::Broadleaf;
@@ -38,7 +40,7 @@ const UNLIT: CrownSettings = CrownSettings {
     composition: Composition::Blended,
     order: SliceOrder::Steady,
     left_out: 0,
-    lit: false,
+    lighting: CrownLighting::Unlit,
     frames: false,
 };
 
@@ -88,4 +90,22 @@ fn mean(picture: &Pixels, channel: usize) -> f64 {
     let bytes = picture.rgb_bytes();
     let all = bytes.chunks_exact(3).map(|rgb| f64::from(rgb[channel]));
     all.sum::<f64>() / f64::from(SIZE.x * SIZE.y)
+}
+
+/// A sun from above, with shadows.
+fn sun(studio: &mut Studio) {
+    studio.world().spawn((
+        DirectionalLight {
+            illuminance: 5_000.0,
+            shadow_maps_enabled: true,
+            ..default()
+        },
+        CascadeShadowConfigBuilder {
+            num_cascades: 1,
+            maximum_distance: 40.0,
+            ..default()
+        }
+        .build(),
+        Transform::default().looking_to(Vec3::new(0.0, -1.0, -0.2), Vec3::Z),
+    ));
 }

@@ -1,0 +1,85 @@
+//! What a user would take instead: a crossed pair of billboards, and pictures from many sides; by error and by cost.
+
+use bevy::prelude::*;
+use bevy_verdure::lab::add_billboards;
+use bevy_verdure::lab::charts::{Axis, Chart, Series};
+use bevy_verdure::prelude::*;
+
+use super::accuracy::{circle, flips};
+use super::cost::{Way, costs};
+use super::lab::{Drawn, Lab};
+
+/// The slicing of the defaults, its levels alone, and its rivals.
+///
+/// An impostor is a picture from each of many directions, the nearest three blended. Its pictures stand where their
+/// directions look from, as slices do, so that it is a slicing of one slice: over the circle like the slicing itself, or
+/// over the sphere. With as many pictures of the same pixels as the slicing has slices (up to what a slicing may hold).
+fn ways(lab: &mut Lab) -> Result<Vec<(String, Drawn)>, String> {
+    let slices = |count| BakeSettings::default().with_slices(count);
+    let impostor = |orientations| BakeSettings {
+        vertical: false,
+        ..slices(1).with_orientations(orientations)
+    };
+    let bakes = [
+        ("slicing", BakeSettings::default()),
+        ("5 slices", slices(5)),
+        ("3 slices", slices(3)),
+        ("1 slice", slices(1)),
+        ("impostor, 31 views", impostor(Orientations::Circle(31))),
+        (
+            "impostor, 31 views of the sphere",
+            impostor(Orientations::Sphere(31)),
+        ),
+    ];
+    let mut ways = Vec::new();
+    for (name, bake) in bakes {
+        let slicing = lab.bake(&bake)?;
+        let drawn = Drawn::Slicing(slicing, CrownSettings::default());
+        ways.push((name.to_string(), drawn));
+    }
+    let crown = lab.crown.clone();
+    let pair =
+        add_billboards(lab.studio.world(), &crown, 1024).map_err(|error| error.to_string())?;
+    ways.push(("billboards".to_string(), Drawn::Billboards(pair)));
+    Ok(ways)
+}
+
+/// Error against distance.
+pub fn errors(lab: &mut Lab) -> Result<Chart, String> {
+    let ways = ways(lab)?;
+    let mut series: Vec<_> = ways
+        .iter()
+        .map(|(name, _)| Series::line(name.as_str(), Vec::<(f64, f64)>::new()))
+        .collect();
+    for distance in [5.0, 10.0, 25.0, 50.0] {
+        println!("{distance} m:");
+        let shots = circle(lab, distance);
+        for (error, series) in flips(lab, &shots, &ways).into_iter().zip(&mut series) {
+            series.points.push((f64::from(distance), error).into());
+        }
+    }
+    Ok(Chart {
+        title: "Error of slicings and of their rivals".into(),
+        subtitle: lab.adapter.clone(),
+        x: Axis::log("distance (m), on a screen of 480 lines"),
+        y: Axis::linear("mean FLIP against the supersampled mesh"),
+        series,
+    })
+}
+
+/// Cost against trees.
+pub fn cost(lab: &mut Lab) -> Result<Chart, String> {
+    let is_rival = |name: &str| !name.contains("slice");
+    let ways: Vec<Way> = ways(lab)?
+        .into_iter()
+        .filter(|(name, _)| is_rival(name))
+        .map(|(name, drawn)| (name, drawn, true))
+        .chain([("mesh".to_string(), Drawn::Mesh, true)])
+        .collect();
+    costs(
+        lab,
+        "Cost of slicings and of their rivals, 640 x 480",
+        &[1, 16, 128],
+        &ways,
+    )
+}

@@ -1,0 +1,27 @@
+#define_import_path bevy_verdure::slicing::lots
+
+// Whether a place is there, by chance, where slices are not blended.
+
+// Mixes the bits of a number: M. Jarzynski, M. Olano, Hash Functions for GPU Rendering (JCGT 2020).
+fn pcg(number: u32) -> u32 {
+    let state = number * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+// The cells of a slice, along its side, of which each has a lot: about the size of a pixel on screen, in powers of two, so
+// that lots stay while the eye moves. `footprint` is what a pixel on screen covers of the slice.
+fn cells(footprint: f32) -> f32 {
+    return exp2(ceil(-log2(max(footprint, 1e-5))));
+}
+
+fn footprint(uv: vec2<f32>) -> f32 {
+    return max(length(dpdx(uv)), length(dpdy(uv)));
+}
+
+// Whether a place of an opacity is there.
+fn is_there(uv: vec2<f32>, cells: f32, lot: u32, alpha: f32) -> bool {
+    let cell = vec2<u32>(floor(uv * cells));
+    let number = pcg(cell.x + pcg(cell.y + lot));
+    return f32(number) * (1.0 / 4294967296.0) < alpha;
+}
