@@ -18,11 +18,13 @@
 //! | [`criteria`] | how many slices, and which? The formulas (§4.1 to §4.3) |
 //! | [`facet`] | one triangle of the surface, the prism on it, and where slices cut it (§2.1, §4.2) |
 //! | `choose` | direction and number for each facet of a view |
+//! | `draw` | what the GPU draws: components, slots, shaders (§2.2, §4, §5) |
 //! | `bake` | light in the colours, as the paper has it, for comparison |
 //! | [`mod@file`] | `*.texel.ron` and its images |
 //!
-//! All of it is plain mathematics, which runs and is tested without a GPU. What knows Bevy: `asset` (volumes as
-//! assets), and `from_mesh` (Bevy's meshes as shapes).
+//! [`TexelSurface`] on an entity with a mesh is all that a game needs. But for `draw`, all of it is plain mathematics, which
+//! runs and is tested without a GPU. What else knows Bevy: `asset` (volumes as assets), and `from_mesh` (Bevy's meshes as
+//! shapes).
 //!
 //! # Where this departs from the paper
 //! * Volumes keep normals, so that the scene lights them; the paper bakes its light.
@@ -30,6 +32,9 @@
 //!   [`Filling::Parity`](build::Filling::Parity), which says where it fails.
 //! * Colour spreads in all directions, not within slices along w alone ([`Spreading`](build::Spreading)).
 //! * e is measured, by what "narrowest" may mean for any contour; the paper leaves it to the user.
+//! * Counts hold at the corners of a facet's prism; the paper takes angles at its centre, so that a large facet below the
+//!   eye would be one slice.
+//! * Counts and directions fade into one another, pixel by pixel; the paper's pop.
 //! * The two slice counts, by depth and by distance, bound each other: the smaller will do.
 
 mod asset;

@@ -105,6 +105,8 @@ pub struct TexelSettings {
     /// The most slices a texel in any direction, rounded down to a power of two. Memory, and the slots that are kept
     /// ready for slices on each facet, grow with it.
     pub most_slices: u32,
+    /// Whether counts and directions of slices fade into one another, pixel by pixel, as the view changes; else they pop.
+    pub fade: bool,
     /// Whether the scene lights the texels; else they have the colours of the volume.
     pub lit: bool,
     /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`.
@@ -127,6 +129,7 @@ impl Default for TexelSettings {
                 ..Default::default()
             },
             most_slices: 256,
+            fade: true,
             lit: true,
             roughness: 0.8,
             reflectance: 0.3,

@@ -36,7 +36,7 @@ pub(crate) struct GeometryKey {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct TexelKeys {
     pub geometry: GeometryKey,
-    settings: [u32; 9],
+    settings: [u32; 10],
 }
 
 impl TexelKeys {
@@ -63,6 +63,7 @@ impl TexelKeys {
                 quality.pixels.to_bits(),
                 settings.shadows.depth.to_bits(),
                 settings.shadows.pixels.to_bits(),
+                settings.fade.into(),
                 settings.lit.into(),
                 settings.roughness.to_bits(),
                 settings.reflectance.to_bits(),

@@ -22,7 +22,8 @@ use super::slots::ATTRIBUTE_SLOT;
 #[derive(Clone, Copy, Debug, PartialEq, ShaderType)]
 pub(crate) struct TexelsUniform {
     most: UVec3,
-    by_quality: u32,
+    /// 1 by h·tan(a)/e, 2 where changes fade.
+    flags: u32,
     lengths: Vec3,
     depth: f32,
     thickness: Vec3,
@@ -40,7 +41,8 @@ impl TexelsUniform {
         let quality = &settings.quality;
         Self {
             most: measure.most,
-            by_quality: (quality.direction == DirectionRule::Quality).into(),
+            flags: u32::from(quality.direction == DirectionRule::Quality)
+                | u32::from(settings.fade) << 1,
             lengths: measure.lengths,
             depth: quality.depth,
             thickness: measure.thickness.narrowest,

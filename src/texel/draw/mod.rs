@@ -7,12 +7,32 @@
 //!    alike is shared (`geometry.rs`, `library.rs`); slots and material are on a child of the surface (`systems.rs`).
 //! 2. In every pass of every view the vertex shader chooses for its facet (`shaders/choose.wgsl`, which is
 //!    [`choose`](super::choose()) again), finds the slice that its slot is, and cuts it out of the facet's prism
-//!    (`shaders/place.wgsl`, `shaders/facet.wgsl`). Shadow maps so have the slices that their light needs.
+//!    (`shaders/place.wgsl`, `shaders/facet.wgsl`). So shadow maps have the slices that their light needs, at a quality of
+//!    their own ([`TexelSettings::shadows`]).
 //! 3. Fragments are those of one slice: opaque, or discarded (`shaders/look.wgsl`). So they need no sorting, texels
 //!    that overlap interpenetrate, and all belongs to Bevy's phase of masked objects (`material.rs`). The scene lights
 //!    them by the volume's normals (`shaders/forward.wgsl`), and they cast shadows (`shaders/prepass.wgsl`).
 //!
-//! Surfaces of one mesh and one volume are instances of one draw.
+//! # What does not pop
+//! Where twice as many slices will soon be needed, they fade in, and so does the second best direction where it is nearly as
+//! good as the best: each pixel of the screen draws a lot, and shows the slices whose it is. Either set alone would do.
+//!
+//! # Light on slices
+//! Slices show the inside of things, by up to d (§4.1). It is lit and shadowed as the surface above it, or solids would
+//! shade themselves in stripes. Facets of a bent surface are shaded by the mesh's normals, so that they do not show.
+//!
+//! # What it costs
+//! A surface is three draws a pass, one for each axis, and instances where mesh, volume and settings are the same.
+//! Most of the cost is pixels of slices that are discarded or hidden. So a mesh below that is drawn too, and a
+//! [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) on the camera, save light; fewer pixels of shadow maps save
+//! slices. On the GPU a volume has all its sets of slices, some 64 bytes a voxel.
+//!
+//! # What it does not do
+//! Skinned and morphed meshes carry texels where they are at rest. Cutting a volume into slices takes a second or more for
+//! 256×256×64 voxels, in the frame in which it is first shown. A slice across u or v is a quad, so that texels with height
+//! vectors that twist are bent in steps. Deferred cameras draw texels forward. Where a facet needs more slices than there
+//! are, or height vectors differ much over it, gaps may show: subdivide the mesh. A change to one facet uploads those of
+//! its whole surface. Storage buffers in the vertex stage are required, so WebGL 2 is out.
 
 mod component;
 mod geometry;

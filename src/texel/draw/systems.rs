@@ -167,18 +167,18 @@ type Followed<'w> = (
     Has<NotShadowReceiver>,
 );
 
+/// What of it they have.
+type Following<'w> = (
+    Option<&'w RenderLayers>,
+    Has<NotShadowCaster>,
+    Has<NotShadowReceiver>,
+);
+
 /// Shows slices where their surface is shown, and lets them cast and receive shadows as it does.
 pub(crate) fn follow_surfaces(
     mut commands: Commands,
     surfaces: Query<Followed>,
-    slices: Query<
-        (
-            Option<&RenderLayers>,
-            Has<NotShadowCaster>,
-            Has<NotShadowReceiver>,
-        ),
-        With<TexelSlices>,
-    >,
+    slices: Query<Following, With<TexelSlices>>,
 ) {
     for (drawn, layers, casts_none, receives_none) in &surfaces {
         for &child in &drawn.slices {

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod passes;
+mod steady;
 mod twins;
 
 use std::sync::LazyLock;

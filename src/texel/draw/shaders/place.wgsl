@@ -106,7 +106,7 @@ fn texel_view() -> TexelView {
 fn texel_quality() -> TexelQuality {
     let light = is_light();
     return TexelQuality(
-        texels.by_quality != 0u,
+        (texels.flags & 1u) != 0u,
         select(texels.depth, texels.shadow_depth, light),
         select(texels.pixels, texels.shadow_pixels, light),
     );
@@ -123,15 +123,16 @@ fn place_corner(in: Corner) -> Varying {
     let quality = texel_quality();
     let seen = look_at(facet, measure, view_of_texels, quality);
     var lots = lots_of_axis(seen.cost, AXIS);
-    if is_light() {
-        // Shadows are not seen to pop, and stay whole.
+    // Shadows are not seen to pop, and stay whole.
+    let fades = (texels.flags & 2u) != 0u && !is_light();
+    if !fades {
         lots = round(lots);
     }
     if !seen.seen || lots.x >= lots.y {
         return out;
     }
     let choice = choose_count(facet, seen, AXIS, measure, view_of_texels, quality);
-    let finer = select(choice.finer, 0.0, is_light());
+    let finer = select(0.0, choice.finer, fades);
     var count = 1u << choice.exponent;
     var range = slice_range(facet.uvs, AXIS, count);
     var slot = i32(in.corner.y >> 2u);

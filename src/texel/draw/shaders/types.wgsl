@@ -12,7 +12,8 @@ struct FacetRecord {
 struct Texels {
     // The largest number of slices along u, v and w, powers of two.
     most: vec3<u32>,
-    by_quality: u32,
+    // 1 where directions are judged by h·tan(a)/e, 2 where changes fade.
+    flags: u32,
     // Of the volume's box, in metres.
     lengths: vec3<f32>,
     depth: f32,
