@@ -57,20 +57,20 @@ impl Default for TexelSurface {
     }
 }
 
-/// Height vectors of one [`TexelSurface`], one for each vertex of its mesh, in the mesh's space: they take the place of those
-/// of the mesh. Change them to move the texels, as a hand does that strokes fur; what changed is uploaded in the same frame.
+/// Height vectors of one [`TexelSurface`], one for each vertex of its mesh, in the mesh's space: they take the place of
+/// those of the mesh. Change them to move the texels, as a hand does that strokes fur; they are uploaded in the same frame.
 #[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct TexelHeights(pub Vec<Vec3>);
 
-/// Marks a [`TexelSurface`] whose mesh is changed in most frames, such as a flag: the mesh is read in every frame, so that its
-/// texels do not lag one frame behind, as they do after a single edit.
+/// Marks a [`TexelSurface`] whose mesh is changed in most frames, such as a flag: the mesh is read in every frame, so
+/// that its texels do not lag one frame behind, as they do after a single edit.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct LiveTexels;
 
-/// Shows volumes one after the other on a [`TexelSurface`], as in a cartoon (§5). Volumes stay on the GPU as long as they are
-/// named here; those that are not loaded yet are left out.
+/// Shows volumes one after the other on a [`TexelSurface`], as in a cartoon (§5). Volumes stay on the GPU as long as they
+/// are named here; while one is not loaded yet, the one before it stays.
 #[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct TexelCycle {

@@ -4,8 +4,8 @@ use bevy::math::Vec3;
 
 use crate::wind::sway;
 
-/// A height vector that bends in the wind, and keeps its length: at `foot` in world space, `time` seconds on. Each metre a second of
-/// `velocity` moves the top by `flexibility` heights, if it is across.
+/// A height vector that bends in the wind, and keeps its length: at `foot` in world space, `time` seconds on. Each metre a
+/// second of `velocity` moves the top by up to `flexibility` heights, if it is across.
 pub fn bend(foot: Vec3, height: Vec3, velocity: Vec3, flexibility: f32, time: f32) -> Vec3 {
     if flexibility == 0.0 || velocity == Vec3::ZERO {
         return height;

@@ -180,8 +180,10 @@ fn meshes_that_can_carry_no_texels_are_left_alone() {
         mesh.remove_attribute(Mesh::ATTRIBUTE_UV_0);
         mesh
     };
-    let mut no_heights = Square::default();
-    no_heights.heights = [Vec3::ZERO; 4];
+    let no_heights = Square {
+        heights: [Vec3::ZERO; 4],
+        ..default()
+    };
     let mut not_finite = Square::default();
     not_finite.positions[2] = Vec3::NAN;
     let mut folded = Square::default();
