@@ -85,14 +85,14 @@ pub enum CrownLighting {
     /// As Bevy lights a `StandardMaterial`: every kind of light, environment maps, gloss, filtered shadows.
     Full,
     /// Directional lights with their shadow maps, ambient light and fog. Leaves scatter light evenly, gloss included, and
-    /// shadows are looked up without a filter, whose work the layers of the crown do. About half of `Full`, and in a
-    /// picture of a grove no further from the mesh.
+    /// shadows are looked up without a filter, whose work the layers of the crown do. Two fifths of `Full` among
+    /// many trees, and as near to the mesh.
     ///
     /// While the world has a point, spot or rectangular light, an environment map, an irradiance volume, a light with a
     /// texture or an atmosphere, even a hidden one, such crowns are lit as by `Full`.
     #[default]
     Simple,
-    /// By nothing: the crown has the colours of its pictures, in fog. About a quarter of `Full`.
+    /// By nothing: the crown has the colours of its pictures, in fog. A quarter of `Full`.
     Unlit,
 }
 
