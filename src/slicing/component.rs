@@ -37,7 +37,7 @@ impl AsAssetId for SlicedCrown {
 
 /// How a [`SlicedCrown`] is put together. Filled in where a crown has none; may be changed at any time. Crowns of one
 /// slicing and the same settings are drawn together.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub struct CrownSettings {
     /// How slices cover what is behind them.
@@ -50,18 +50,6 @@ pub struct CrownSettings {
     pub lighting: CrownLighting,
     /// Whether each slice has a frame, as in the paper's Figure 3.
     pub frames: bool,
-}
-
-impl Default for CrownSettings {
-    fn default() -> Self {
-        Self {
-            composition: Composition::default(),
-            order: SliceOrder::default(),
-            left_out: 0,
-            lighting: CrownLighting::default(),
-            frames: false,
-        }
-    }
 }
 
 /// How the slices of a crown cover what is behind them.
