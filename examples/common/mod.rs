@@ -23,6 +23,10 @@ const STEP: Duration = Duration::from_millis(40);
 #[derive(Component)]
 pub struct MainCamera;
 
+/// Marks the root of a plant that has no skeleton, to be hidden where an empty scene is timed.
+#[derive(Component)]
+pub struct Plant;
+
 /// What the eye circles while it orbits.
 #[derive(Resource, Clone, Copy)]
 pub struct Orbit {
@@ -119,7 +123,7 @@ fn run_headless(
 /// Shows or hides all plants.
 fn show_plants(headless: &mut Headless, shown: bool) {
     let world = headless.world();
-    let mut plants = world.query_filtered::<&mut Visibility, With<Skeleton3d>>();
+    let mut plants = world.query_filtered::<&mut Visibility, Or<(With<Skeleton3d>, With<Plant>)>>();
     for mut visibility in plants.iter_mut(world) {
         *visibility = if shown {
             Visibility::Inherited

@@ -9,6 +9,8 @@ use bevy_verdure::plants::{Broadleaf, BroadleafMeshes, Dice};
 use bevy_verdure::prelude::*;
 use clap::ValueEnum;
 
+use super::common::Plant;
+
 /// Metres between trees.
 const SPACING: f32 = 9.0;
 
@@ -113,6 +115,7 @@ impl Grove {
             let tint = if trees == 1 { Color::WHITE } else { tint };
             commands
                 .spawn((
+                    Plant,
                     place,
                     Visibility::default(),
                     Mesh3d(solid.clone()),

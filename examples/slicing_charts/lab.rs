@@ -2,7 +2,7 @@
 
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
-use bevy_verdure::lab::{GpuClockPlugin, Studio, adapter_name, broadleaf_crown};
+use bevy_verdure::lab::{Billboard, GpuClockPlugin, Studio, adapter_name, broadleaf_crown};
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
 
@@ -32,7 +32,7 @@ pub enum Drawn {
     Mesh,
     Slicing(Handle<Slicing>, CrownSettings),
     /// Flat pictures.
-    Billboards(Vec<(Handle<Mesh>, Handle<StandardMaterial>)>),
+    Billboards(Vec<Billboard>),
 }
 
 impl Lab {

@@ -16,7 +16,10 @@ use crate::slicing::{
 /// Alpha from which on a pixel of a billboard is there.
 const MASK: f32 = 0.5;
 
-/// Bakes and adds a crossed pair of billboards of so many pixels a side: the mesh and the material of each.
+/// A flat picture of a crown: its mesh and its material.
+pub type Billboard = (Handle<Mesh>, Handle<StandardMaterial>);
+
+/// Bakes and adds a crossed pair of billboards of so many pixels a side.
 ///
 /// # Errors
 /// As [`bake`] says.
@@ -24,7 +27,7 @@ pub fn add_billboards(
     world: &mut World,
     crown: &CrownMesh,
     pixels: u32,
-) -> Result<Vec<(Handle<Mesh>, Handle<StandardMaterial>)>, BakeError> {
+) -> Result<Vec<Billboard>, BakeError> {
     let settings = BakeSettings {
         vertical: false,
         ..BakeSettings::default()

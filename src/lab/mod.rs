@@ -24,7 +24,7 @@ mod texture;
 mod timing;
 
 pub use args::{CommonArgs, Size, parse_size, parse_vec3};
-pub use billboards::add_billboards;
+pub use billboards::{Billboard, add_billboards};
 pub use broadleaf_crown::broadleaf_crown;
 pub use capture::{Pixels, load_png};
 pub use compare::mean_flip;

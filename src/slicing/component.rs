@@ -37,7 +37,7 @@ impl AsAssetId for SlicedCrown {
 
 /// How a [`SlicedCrown`] is put together. Filled in where a crown has none; may be changed at any time. Crowns of one
 /// slicing and the same settings are drawn together.
-#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, Hash, Reflect)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub struct CrownSettings {
     /// How slices cover what is behind them.
@@ -50,18 +50,6 @@ pub struct CrownSettings {
     pub lighting: CrownLighting,
     /// Whether each slice has a frame, as in the paper's Figure 3.
     pub frames: bool,
-}
-
-impl Default for CrownSettings {
-    fn default() -> Self {
-        Self {
-            composition: Composition::default(),
-            order: SliceOrder::default(),
-            left_out: 0,
-            lighting: CrownLighting::default(),
-            frames: false,
-        }
-    }
 }
 
 /// How the slices of a crown cover what is behind them.
@@ -85,14 +73,14 @@ pub enum CrownLighting {
     /// As Bevy lights a `StandardMaterial`: every kind of light, environment maps, gloss, filtered shadows.
     Full,
     /// Directional lights with their shadow maps, ambient light and fog. Leaves scatter light evenly, gloss included, and
-    /// shadows are looked up without a filter, whose work the layers of the crown do. About half of `Full`, and in a
-    /// picture of a grove no further from the mesh.
+    /// shadows are looked up without a filter, whose work the layers of the crown do. Two fifths of `Full` among
+    /// many trees, and as near to the mesh.
     ///
     /// While the world has a point, spot or rectangular light, an environment map, an irradiance volume, a light with a
     /// texture or an atmosphere, even a hidden one, such crowns are lit as by `Full`.
     #[default]
     Simple,
-    /// By nothing: the crown has the colours of its pictures, in fog. About a quarter of `Full`.
+    /// By nothing: the crown has the colours of its pictures, in fog. A quarter of `Full`.
     Unlit,
 }
 

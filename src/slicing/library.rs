@@ -1,15 +1,12 @@
 //! What is on the GPU for the slicings in use, and the systems that keep it up to date.
 
 use bevy::asset::prelude::AssetChanged;
-use bevy::asset::{AssetEvent, AssetId, RenderAssetUsages};
+use bevy::asset::{AssetEvent, AssetId};
 use bevy::camera::primitives::Aabb;
-use bevy::image::{Image, ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
+use bevy::image::Image;
 use bevy::mesh::MeshTag;
 use bevy::platform::collections::{HashMap, HashSet};
 use bevy::prelude::*;
-use bevy::render::render_resource::{
-    Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
-};
 use bevy::render::storage::ShaderBuffer;
 
 use super::component::{CrownSettings, CrownTint, SlicedCrown};
@@ -17,6 +14,7 @@ use super::lights::CrownLights;
 use super::material::{CrownUniform, SlicedCrownMaterial};
 use super::mesh::crown_mesh;
 use super::slicing::Slicing;
+use super::upload::{bounds, images, octagons};
 use crate::wind::Wind;
 
 /// What crowns of one slicing share.
@@ -104,57 +102,6 @@ impl Shared {
         };
         self.materials.entry(settings).or_insert_with(make).clone()
     }
-}
-
-fn bounds(slicing: &Slicing) -> Aabb {
-    let shape = slicing.shape();
-    // Room to sway.
-    let reach = Vec3::splat(1.1 * shape.radius);
-    Aabb::from_min_max(shape.centroid - reach, shape.centroid + reach)
-}
-
-fn octagons(slicing: &Slicing) -> ShaderBuffer {
-    let corners = slicing.octagons().iter().flatten();
-    let numbers: Vec<f32> = corners.flat_map(|corner| corner.to_array()).collect();
-    ShaderBuffer::new(bytemuck::cast_slice(&numbers), RenderAssetUsages::default())
-}
-
-/// The texture arrays of colours and of normals.
-fn images(slicing: &Slicing) -> [Image; 2] {
-    let shape = slicing.shape();
-    let formats = [TextureFormat::Rgba8UnormSrgb, TextureFormat::Rgba8Unorm];
-    let [color, normal] = slicing.texture_bytes();
-    let image = |data: Vec<u8>, format| {
-        let size = Extent3d {
-            width: shape.pixels,
-            height: shape.pixels,
-            depth_or_array_layers: shape.layers() as u32,
-        };
-        let mut image = Image::new_uninit(
-            size,
-            TextureDimension::D2,
-            format,
-            RenderAssetUsages::RENDER_WORLD,
-        );
-        image.texture_descriptor.mip_level_count = shape.pixels.ilog2() + 1;
-        image.texture_view_descriptor = Some(TextureViewDescriptor {
-            dimension: Some(TextureViewDimension::D2Array),
-            ..default()
-        });
-        image.data = Some(data);
-        // Slices of weight are seen at 30° or less from their normal, where a pixel is 1.15 times as long as wide:
-        // anisotropic filtering would cost more than it shows.
-        image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
-            address_mode_u: ImageAddressMode::ClampToEdge,
-            address_mode_v: ImageAddressMode::ClampToEdge,
-            mag_filter: ImageFilterMode::Linear,
-            min_filter: ImageFilterMode::Linear,
-            mipmap_filter: ImageFilterMode::Linear,
-            ..default()
-        });
-        image
-    };
-    [image(color, formats[0]), image(normal, formats[1])]
 }
 
 /// What tells that a crown needs a (new) material.

@@ -8,11 +8,12 @@
 //! 1. [`bake()`] turns a [`CrownMesh`] into a [`Slicing`] on the CPU (`bake/`): for each orientation a box
 //!    (`orientation.rs`), for each slice a picture of colour, alpha and normals, trimmed to what is opaque
 //!    (`octagon.rs`), with mip levels that keep coverage (`pyramid.rs`). It is kept as a `*.slicing.ron` and its pictures
-//!    (`document.rs`), which the asset server loads (`loader.rs`).
-//! 2. [`SlicedCrown`] on an entity draws it (`component.rs`). `library.rs` turns slicings into textures, `material.rs`
+//!    (`document/`), which the asset server loads (`loader.rs`).
+//! 2. [`SlicedCrown`] on an entity draws it (`component.rs`). `library.rs` keeps what is on the GPU
+//!    (`upload.rs`) for the slicings in use, `material.rs`
 //!    draws them in Bevy's own phases, with a mesh that holds nothing but numbers of slices (`mesh.rs`).
 //! 3. For each view, the vertex shader picks the slicings of least discrepancy angle from the eye's position, their
-//!    opacities and the order of their slices (`blend.rs`, `shaders/blend.wgsl`), and places the slices
+//!    opacities and the order of their slices (`blend/`, `shaders/blend.wgsl`), and places the slices
 //!    (`shaders/place.wgsl`). The fragment shaders light them by their baked normals, with the scene's lights, shadow maps
 //!    and fog (`shaders/forward.wgsl`), in a way that suits what is there (`lights.rs`, `shaders/simple.wgsl`), or let them
 //!    cast shadows (`shaders/prepass.wgsl`).
@@ -60,6 +61,7 @@ mod pyramid;
 mod slicing;
 #[cfg(test)]
 mod tests;
+mod upload;
 
 use bevy::asset::AssetEventSystems;
 use bevy::pbr::MaterialPlugin;

@@ -1,6 +1,6 @@
 #define_import_path bevy_verdure::slicing::blend
 
-// View blending (§2.3), function by function what blend.rs is.
+// View blending (§2.3), function by function what blend/ is.
 
 #import bevy_verdure::slicing::types::crown
 
@@ -122,7 +122,7 @@ fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
 }
 
 fn covered(alpha: f32, weight: f32) -> f32 {
-    return (1.0 - pow(1.0 - SUREST * alpha, weight)) / SUREST;
+    return 1.0 - pow(1.0 - SUREST * alpha, weight);
 }
 
 // The slice that is drawn in the `number`th place, far to near, for an eye in a direction (unit) from the centroid and

@@ -1,0 +1,140 @@
+//! View blending (§2.3): which slicings are drawn for an eye, how opaque, and in what order.
+//!
+//! `weights.rs` finds the slicings and their weights, `detail.rs` the level; here they become slices, far to near.
+//! `shaders/blend.wgsl` has the same functions by the same names.
+
+use bevy::math::{FloatExt, Vec3};
+
+mod detail;
+mod weights;
+
+pub use detail::{FOCAL, apparent_distance, levels};
+pub use weights::{SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slots};
+
+use super::slicing::SlicingShape;
+
+/// In what order the slices of blended slicings are drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, bevy::reflect::Reflect)]
+pub enum SliceOrder {
+    /// Interleaved by rank from the furthest; within a rank, always by number of orientation. Nothing pops where primary
+    /// and secondary are swapped.
+    #[default]
+    Steady,
+    /// As the paper does: interleaved, within a rank the secondary slice before the primary one, two slicings of the
+    /// finest level only. Swaps pop.
+    Paper,
+}
+
+/// A slice that is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrawnSlice {
+    /// Which orientation.
+    pub orientation: u32,
+    /// Which level of detail.
+    pub level: u32,
+    /// Which slice of it, the first being furthest along the direction.
+    pub index: u32,
+    /// What becomes of its pixels' opacities: in the paper's order they are multiplied with this, α f_c; else this is α,
+    /// and they are what [`covered`] says.
+    pub opacity: f32,
+}
+
+/// All slices for an eye at `eye`, from the centroid in local space, on the screen of [`FOCAL`], in the order in which they
+/// are drawn: far to near.
+/// `left_out` of the furthest ones of each slicing are not.
+pub fn drawn_slices(
+    shape: &SlicingShape,
+    eye: Vec3,
+    order: SliceOrder,
+    left_out: u32,
+) -> Vec<DrawnSlice> {
+    let direction = eye.normalize_or(Vec3::Z);
+    let slots = slots(shape, direction, order);
+    let (level, share) = levels(shape, eye.length() / shape.radius, order);
+    let greatest = slots.iter().map(|slot| slot.weight).fold(0.0, f32::max);
+    let mut drawn = Vec::new();
+    for (level, share) in [(level + 1, 1.0 - share), (level, share)] {
+        let count = shape.levels.get(level).copied().unwrap_or(0);
+        for rank in 0..count {
+            for slot in slots {
+                let weight = slot.weight * share;
+                let opacity = match order {
+                    SliceOrder::Steady => weight,
+                    SliceOrder::Paper => corrected(weight, greatest, shape.correction),
+                };
+                if opacity <= 0.0 || rank < left_out {
+                    continue;
+                }
+                let faces = shape.orientations[slot.orientation as usize]
+                    .direction
+                    .dot(direction)
+                    >= 0.0;
+                drawn.push(DrawnSlice {
+                    orientation: slot.orientation,
+                    level: level as u32,
+                    index: if faces { rank } else { count - 1 - rank },
+                    opacity,
+                });
+            }
+        }
+    }
+    drawn
+}
+
+/// The slices that cast shadows for light from `direction` (unit), that of a directional light, into a shadow map in which
+/// the crown is as small as it apparently is so many radii away: those of the nearest orientation, in the level of
+/// detail next to that for such a size, which no picture shows but frame times do (in the paper's order, the finest). What
+/// is next to the light comes first, and hides the rest from the depth test on.
+pub fn cast_slices(
+    shape: &SlicingShape,
+    direction: Vec3,
+    distance: f32,
+    order: SliceOrder,
+) -> Vec<DrawnSlice> {
+    let (level, share) = levels(shape, distance, order);
+    let level = match order {
+        SliceOrder::Paper => 0,
+        SliceOrder::Steady => {
+            let next = level + 1 + usize::from(share < 0.5);
+            next.min(shape.levels.len() - 1)
+        }
+    };
+    let count = shape.levels[level];
+    let (mut nearest, mut greatest) = (0, -2.0);
+    for (i, o) in shape.orientations.iter().enumerate() {
+        let cosine = o.direction.dot(direction);
+        if cosine > greatest {
+            (nearest, greatest) = (i as u32, cosine);
+        }
+    }
+    let slice = |number| DrawnSlice {
+        orientation: nearest,
+        level: level as u32,
+        index: if greatest >= 0.0 {
+            count - 1 - number
+        } else {
+            number
+        },
+        opacity: 1.0,
+    };
+    (0..count).map(slice).collect()
+}
+
+/// 0 up to `low`, 1 from `high`, and an S between.
+fn smooth(low: f32, high: f32, x: f32) -> f32 {
+    let t = x.inverse_lerp_clamped(low, high);
+    t * t * (3.0 - 2.0 * t)
+}
+
+trait InverseLerp {
+    fn inverse_lerp_clamped(self, low: f32, high: f32) -> f32;
+}
+
+impl InverseLerp for f32 {
+    fn inverse_lerp_clamped(self, low: f32, high: f32) -> f32 {
+        f32::inverse_lerp(low, high, self).clamp(0.0, 1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,205 @@
+//! What is promised of view blending.
+
+use core::f32::consts::TAU;
+
+use super::*;
+use crate::slicing::orientation::{Orientation, Orientations};
+
+fn shape(orientations: Orientations, vertical: bool) -> SlicingShape {
+    let mut directions = orientations.directions();
+    directions.extend(vertical.then_some(Vec3::Y));
+    SlicingShape {
+        centroid: Vec3::Y,
+        radius: 2.0,
+        pixels: 16,
+        levels: vec![5, 3, 1],
+        switches: vec![10.0, 25.0],
+        correction: 0.5,
+        sphere: matches!(orientations, Orientations::Sphere(_)),
+        vertical,
+        orientations: directions.into_iter().map(Orientation::facing).collect(),
+    }
+}
+
+fn horizontal(degrees: f32) -> Vec3 {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    Vec3::new(cos, 0.0, sin)
+}
+
+#[test]
+fn opacities_go_from_1_to_a_half_as_the_discrepancy_angle_grows_to_30_degrees() {
+    let shape = shape(Orientations::Circle(6), false);
+    for (angle, primary) in [(0.0, 1.0), (15.0, 0.75), (29.99, 0.5)] {
+        let [secondary, first, _] = slots(&shape, horizontal(60.0 + angle), SliceOrder::Paper);
+        assert_eq!(
+            (first.orientation, secondary.orientation),
+            (
+                1,
+                if angle > 0.0 {
+                    2
+                } else {
+                    secondary.orientation
+                }
+            )
+        );
+        // Angles of single precision near 1 radian: a few 2⁻²³, over 30°.
+        assert!(
+            (first.weight - primary).abs() < 2e-3,
+            "{angle}: {}",
+            first.weight
+        );
+        assert!((first.weight + secondary.weight - 1.0).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn an_eye_above_counts_by_its_projection_to_the_plane_of_both() {
+    let shape = shape(Orientations::Circle(6), false);
+    for elevation in [0.0_f32, 20.0, 44.0] {
+        let (sin, cos) = elevation.to_radians().sin_cos();
+        let eye = horizontal(75.0) * cos + Vec3::Y * sin;
+        let [_, first, _] = slots(&shape, eye, SliceOrder::Paper);
+        assert!(
+            (first.weight - 0.75).abs() < 1e-5,
+            "{elevation}: {}",
+            first.weight
+        );
+    }
+}
+
+/// The opacity of every slice, and the order of those that matter.
+fn draw(shape: &SlicingShape, eye: Vec3) -> Vec<DrawnSlice> {
+    drawn_slices(shape, eye, SliceOrder::Steady, 0)
+}
+
+#[test]
+fn nothing_pops_on_any_way_of_the_eye() {
+    // Along each way, no slice changes its opacity by more than the step allows, and no two slices of weight
+    // change places.
+    let circle = shape(Orientations::Circle(6), true);
+    let sphere = shape(Orientations::Sphere(20), false);
+    let orbit = |t: f32| horizontal(360.0 * t) * 8.0 + Vec3::Y * 2.0;
+    let rise = |t: f32| Vec3::new((TAU * t).cos(), (TAU * t).sin(), 0.13) * 9.0;
+    let away = |t: f32| Vec3::new(0.3, 0.2, 1.0).normalize() * (1.0 + 80.0 * t);
+    let ways: [&dyn Fn(f32) -> Vec3; 3] = [&orbit, &rise, &away];
+    for shape in [&circle, &sphere] {
+        for way in ways {
+            let steps = 20_000;
+            let mut before = draw(shape, way(0.0));
+            for step in 1..=steps {
+                let after = draw(shape, way(step as f32 / steps as f32));
+                let key = |s: &DrawnSlice| (s.level, s.orientation, s.index);
+                let opacity = |all: &[DrawnSlice], k| {
+                    all.iter().find(|s| key(s) == k).map_or(0.0, |s| s.opacity)
+                };
+                for s in before.iter().chain(&after) {
+                    let change = (opacity(&before, key(s)) - opacity(&after, key(s))).abs();
+                    // A turn takes 20,000 steps; opacities fall by ½ in 30° at most, and gain by the correction.
+                    assert!(change < 0.01, "{s:?} at {step}: {change}");
+                }
+                let matter = |all: &[DrawnSlice]| -> Vec<_> {
+                    all.iter().filter(|s| s.opacity > 0.02).map(key).collect()
+                };
+                let (a, b) = (matter(&before), matter(&after));
+                let common = |x: &[(u32, u32, u32)], y: &[(u32, u32, u32)]| -> Vec<_> {
+                    x.iter().filter(|k| y.contains(k)).copied().collect()
+                };
+                assert_eq!(common(&a, &b), common(&b, &a), "order at {step}");
+                before = after;
+            }
+        }
+    }
+}
+
+#[test]
+fn blended_slicings_cover_together_what_one_covers_alone() {
+    for alpha in [0.0, 0.1, 0.5, 0.9, 1.0_f32] {
+        let whole = SUREST * alpha;
+        let mut before = 0.0;
+        for step in 1..=100 {
+            let weight = step as f32 / 100.0;
+            let (a, b) = (covered(alpha, weight), covered(alpha, 1.0 - weight));
+            let both = 1.0 - (1.0 - a) * (1.0 - b);
+            // In single precision.
+            assert!((both - whole).abs() < 1e-6, "{alpha} {weight}: {both}");
+            // ln(1/(1 - SUREST)) = 3.22 times a step of the weight.
+            assert!(a >= before && a - before < 0.034, "{alpha} {weight}");
+            before = a;
+        }
+    }
+}
+
+#[test]
+fn slices_are_drawn_interleaved_from_the_furthest() {
+    let shape = shape(Orientations::Circle(6), false);
+    let drawn = drawn_slices(&shape, horizontal(75.0) * 9.0, SliceOrder::Paper, 0);
+    let expected: Vec<_> = (0..5).flat_map(|rank| [(2, rank), (1, rank)]).collect();
+    let order: Vec<_> = drawn.iter().map(|s| (s.orientation, s.index)).collect();
+    assert_eq!(order, expected);
+    // f_c = 1 + ½ · ¼.
+    assert!((drawn[0].opacity - 0.25 * 1.125).abs() < 1e-5);
+    assert!((drawn[1].opacity - 0.75 * 1.125).abs() < 1e-5);
+    let fewer = drawn_slices(&shape, horizontal(75.0) * 9.0, SliceOrder::Paper, 2);
+    assert_eq!(fewer, drawn[4..]);
+}
+
+#[test]
+fn levels_of_detail_take_over_with_distance_and_the_vertical_slicing_from_above_and_below() {
+    let shape = shape(Orientations::Circle(6), true);
+    let slices = |radii: f32| draw(&shape, horizontal(0.0) * radii * shape.radius).len();
+    assert_eq!(
+        [slices(5.0), slices(10.0), slices(15.0), slices(40.0)],
+        [5, 8, 3, 1]
+    );
+    for y in [1.0, -1.0] {
+        let drawn = draw(&shape, Vec3::new(0.01, y, 0.01) * 9.0);
+        assert_eq!(drawn.len(), 5);
+        assert!(drawn.iter().all(|s| s.orientation == 6 && s.opacity == 1.0));
+        // From below, what is above is further.
+        assert_eq!(drawn[0].index, if y > 0.0 { 0 } else { 4 });
+    }
+}
+
+#[test]
+fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
+    let shape = shape(Orientations::Circle(6), true);
+    for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {
+        for (distance, count) in [(1.0, 3), (9.9, 3), (10.1, 1), (24.0, 1), (26.0, 1)] {
+            let cast = cast_slices(&shape, light, distance, SliceOrder::Steady);
+            // The slice next to the light has the greatest number, and comes first.
+            let numbers: Vec<u32> = cast.iter().map(|s| s.index).collect();
+            assert_eq!(numbers, (0..count).rev().collect::<Vec<u32>>());
+            assert!(
+                cast.iter()
+                    .all(|s| s.orientation == orientation && s.opacity == 1.0),
+                "{light}"
+            );
+        }
+        let paper = cast_slices(&shape, light, 26.0, SliceOrder::Paper);
+        assert_eq!(paper.len(), 5);
+    }
+}
+
+#[test]
+fn weights_add_up_to_1_for_any_eye() {
+    for shape in [
+        shape(Orientations::Circle(6), true),
+        shape(Orientations::Circle(3), false),
+        shape(Orientations::Sphere(9), false),
+        shape(
+            Orientations::Arc {
+                count: 2,
+                from: 0.0,
+                to: 0.5,
+            },
+            true,
+        ),
+    ] {
+        for eye in Orientations::Sphere(499).directions() {
+            for order in [SliceOrder::Steady, SliceOrder::Paper] {
+                let sum: f32 = slots(&shape, eye, order).iter().map(|s| s.weight).sum();
+                assert!((sum - 1.0).abs() < 1e-5, "{eye}: {sum}");
+            }
+        }
+    }
+}

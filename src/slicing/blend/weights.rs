@@ -1,0 +1,116 @@
+//! How much each slicing counts for an eye: the discrepancy angle (§2.3), and what several slicings cover together.
+
+use bevy::math::Vec3;
+
+use super::{SliceOrder, smooth};
+use crate::slicing::slicing::SlicingShape;
+
+/// Slicings that blend at once.
+pub const SLOTS: usize = 3;
+
+/// Sines of the eye's elevation from where to where the vertical slicing takes over: 30° to 60°.
+const RISE: [f32; 2] = [0.5, 0.866];
+/// A slicing that is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Slot {
+    /// Which orientation.
+    pub orientation: u32,
+    /// α, before the correction f_c; 0 where nothing is drawn.
+    pub weight: f32,
+}
+
+/// Primary opacity α_p: 1 for an eye in line with the `primary` orientation, 0.5 half-way to the `secondary` one, linear
+/// in the angle between, the direction to the eye being projected to the plane of both.
+pub fn primary_opacity(primary: Vec3, secondary: Vec3, eye: Vec3) -> f32 {
+    let cosine = primary.dot(secondary).clamp(-1.0, 1.0);
+    let across = secondary - primary * cosine;
+    let width = across.length();
+    if width < 1e-4 {
+        return 1.0;
+    }
+    let discrepancy = (eye.dot(across) / width).atan2(eye.dot(primary));
+    let half = 0.5 * cosine.acos();
+    1.0 - 0.5 * (discrepancy / half).clamp(0.0, 1.0)
+}
+
+/// The slicings for an eye in direction `eye` (unit) from the centroid, in the order in which the slices of a rank are
+/// drawn. Weights add up to 1.
+pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS] {
+    let vertical = shape.vertical && order == SliceOrder::Steady;
+    let count =
+        shape.orientations.len() - usize::from(shape.vertical && shape.orientations.len() > 1);
+    // The four orientations of least discrepancy angle, the nearest first.
+    let mut nearest = [0_usize; 4];
+    let mut cosines = [-2.0_f32; 4];
+    for (i, o) in shape.orientations[..count].iter().enumerate() {
+        let cosine = o.direction.dot(eye);
+        for k in 0..4 {
+            if cosine > cosines[k] {
+                for j in (k + 1..4).rev() {
+                    (nearest[j], cosines[j]) = (nearest[j - 1], cosines[j - 1]);
+                }
+                (nearest[k], cosines[k]) = (i, cosine);
+                break;
+            }
+        }
+    }
+    let mut slots = [Slot::default(); SLOTS];
+    for (slot, nearest) in slots.iter_mut().zip(nearest) {
+        slot.orientation = nearest as u32;
+    }
+    if shape.sphere {
+        // Three slicings, each fading out where a fourth comes as near: A weight falls to 0 before its slicing is left.
+        let angles = cosines.map(|cosine| cosine.clamp(-1.0, 1.0).acos());
+        let gains = [0, 1, 2].map(|k| (angles[3] - angles[k]).max(1e-6));
+        let sum: f32 = gains.iter().sum();
+        for (slot, gain) in slots.iter_mut().zip(gains) {
+            slot.weight = gain / sum;
+        }
+    } else {
+        let direction = |k: usize| shape.orientations[nearest[k]].direction;
+        let primary = match count {
+            1 => 1.0,
+            _ => primary_opacity(direction(0), direction(1), eye),
+        };
+        let rise = if vertical {
+            smooth(RISE[0], RISE[1], eye.y.abs())
+        } else {
+            0.0
+        };
+        slots[0].weight = primary * (1.0 - rise);
+        slots[1].weight = (1.0 - primary) * (1.0 - rise);
+        slots[2] = Slot {
+            orientation: shape.orientations.len() as u32 - 1,
+            weight: rise,
+        };
+    }
+    match order {
+        // Secondary, primary.
+        SliceOrder::Paper => slots.swap(0, 1),
+        SliceOrder::Steady => {
+            // Three compares sort three.
+            for (a, b) in [(0, 1), (1, 2), (0, 1)] {
+                if slots[a].orientation > slots[b].orientation {
+                    slots.swap(a, b);
+                }
+            }
+        }
+    }
+    slots
+}
+
+/// The corrected opacity of a slicing of weight α: f_c α, where f_c = 1 + m_s (1 − α_p), α_p being the greatest weight.
+pub fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
+    (weight * (1.0 + correction * (1.0 - greatest))).min(1.0)
+}
+
+/// The greatest opacity of a place, in a picture in which it is 1: of more, a slicing that fades in would be there at once.
+pub const SUREST: f32 = 0.96;
+
+/// The opacity of a place of opacity `alpha` in one of several slicings that blend, whose weight α is `weight`:
+/// 1 − (1 − alpha)^α, so that slicings whose weights add up to 1 cover together what one of them covers alone, where
+/// α alpha would let more and more through. The correction f_c makes up for that on the average of a crown, this for
+/// each place. With [`SUREST`] for 1, a slicing never gains more than 3.3 times as fast as its weight.
+pub fn covered(alpha: f32, weight: f32) -> f32 {
+    1.0 - (1.0 - SUREST * alpha).powf(weight)
+}
