@@ -23,16 +23,15 @@ impl FromWorld for Skin {
     }
 }
 
+type Undressed<'a> = (Entity, Has<Dancer>, &'a MeshMaterial3d<FrustaMaterial>);
+
 fn dress(
     mut commands: Commands,
     skin: Res<Skin>,
     mut drawn: ResMut<Drawn>,
     materials: Res<Assets<FrustaMaterial>>,
     mut standard: ResMut<Assets<StandardMaterial>>,
-    bare: Query<
-        (Entity, Has<Dancer>, &MeshMaterial3d<FrustaMaterial>),
-        (With<Skeleton3d>, Without<Looks>),
-    >,
+    bare: Query<Undressed, (With<Skeleton3d>, Without<Looks>)>,
 ) {
     for (plant, dances, material) in &bare {
         let looks = if dances {
