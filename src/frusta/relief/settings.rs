@@ -139,8 +139,8 @@ pub enum ReliefMarch {
     /// Looks at every step (the paper's choice, §3).
     #[default]
     Uniform,
-    /// Leaps over steps that a mip level of greatest heights tells to be in air. Takes twice the memory for the map.
-    /// Worth it with many steps only: `docs/speed_accuracy.md` charts both.
+    /// Leaps over steps that a mip level of greatest heights tells to be in air. Takes twice the memory for the map, and on
+    /// a software driver more time than it saves, as `docs/speed_accuracy.md` charts.
     Leaping,
 }
 
