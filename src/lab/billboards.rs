@@ -22,7 +22,7 @@ pub type Billboard = (Handle<Mesh>, Handle<StandardMaterial>);
 /// Bakes and adds a crossed pair of billboards of so many pixels a side.
 ///
 /// # Errors
-/// As [`bake`] says.
+/// As [`bake()`] says.
 pub fn add_billboards(
     world: &mut World,
     crown: &CrownMesh,
