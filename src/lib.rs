@@ -21,6 +21,7 @@
 pub mod frusta;
 #[cfg(feature = "lab")]
 pub mod lab;
+mod pipeline;
 pub mod plants;
 mod ron_text;
 pub mod skeleton;

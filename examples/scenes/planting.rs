@@ -51,11 +51,7 @@ pub fn plant(world: &mut World, planting: &Planting) {
                     Frusta::default().with_ends(ends),
                     MeshMaterial3d(looks.relief.clone()),
                     looks.clone(),
-                    Transform {
-                        translation: place.position,
-                        rotation: Quat::from_rotation_y(place.yaw),
-                        scale: Vec3::splat(place.scale),
-                    },
+                    place.transform(),
                 ));
             }
         }

@@ -1,5 +1,6 @@
 //! The dancing cacti in the looks of the other scenes: with relief, and with polygons that their segments move.
 
+use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 use bevy_verdure::plants::Surface;
 use bevy_verdure::prelude::*;
@@ -28,6 +29,7 @@ type Undressed<'a> = (Entity, Has<Dancer>, &'a MeshMaterial3d<FrustaMaterial>);
 fn dress(
     mut commands: Commands,
     skin: Res<Skin>,
+    mut flowers: Local<HashMap<AssetId<FrustaMaterial>, Looks>>,
     mut drawn: ResMut<Drawn>,
     materials: Res<Assets<FrustaMaterial>>,
     mut standard: ResMut<Assets<StandardMaterial>>,
@@ -40,12 +42,14 @@ fn dress(
             let Some(colour) = materials.get(&material.0) else {
                 continue;
             };
-            Looks {
+            let looks = || Looks {
                 rays: material.0.clone(),
                 relief: material.0.clone(),
                 polygons: standard.add(colour.base.clone()),
                 carved: None,
-            }
+            };
+            let known = flowers.entry(material.0.id());
+            known.or_insert_with(looks).clone()
         };
         commands.entity(plant).insert(looks);
         // Draws anew.

@@ -1,6 +1,6 @@
 //! The material: Bevy's standard one, on a surface that is ray cast.
 
-use bevy::asset::{Asset, AssetPath};
+use bevy::asset::Asset;
 use bevy::ecs::system::SystemParamItem;
 use bevy::ecs::system::lifetimeless::SRes;
 use bevy::mesh::MeshVertexBufferLayoutRef;
@@ -20,6 +20,7 @@ use bevy::shader::{ShaderDefVal, ShaderRef};
 use super::buffers::FrustaBuffers;
 use super::mesh::ATTRIBUTE_CORNER;
 use super::relief::{Relief, ReliefBindings, ReliefMarch, ReliefTextures, ReliefV};
+use crate::pipeline::{define, embedded_shader, names};
 
 /// The material of plants that are drawn by frusta: all of [`StandardMaterial`] that a surface with one pair of
 /// texture coordinates can have, on a ray-cast surface.
@@ -176,11 +177,9 @@ impl AsBindGroup for FrustaExtension {
     }
 }
 
-/// Path of a shader of this folder.
+/// A shader of this folder.
 fn shader(name: &str) -> ShaderRef {
-    ShaderRef::Path(
-        AssetPath::parse(&format!("embedded://bevy_verdure/frusta/shaders/{name}")).into_owned(),
-    )
+    embedded_shader(&format!("frusta/shaders/{name}"))
 }
 
 impl MaterialExtension for FrustaExtension {
@@ -231,41 +230,23 @@ impl MaterialExtension for FrustaExtension {
         } else {
             Face::Front
         });
-        let mut defs = Vec::new();
-        let samples = descriptor.multisample.count;
-        defs.push(ShaderDefVal::UInt("FRUSTA_SAMPLES".into(), samples));
-        if samples > 1 {
-            defs.push("FRUSTA_MULTISAMPLED".into());
-        }
-        if key.bind_group_data.geometric_normals != 0 {
-            defs.push("FRUSTA_GEOMETRIC_NORMALS".into());
-        }
-        let relief = key.bind_group_data.relief;
-        for (bit, def) in [
-            (RELIEF, "FRUSTA_RELIEF"),
-            (RELIEF_INTERPOLATED_V, "FRUSTA_INTERPOLATED_V"),
-            (RELIEF_LEAPING, "FRUSTA_LEAPING"),
-            (RELIEF_SELF_SHADOW, "FRUSTA_SELF_SHADOW"),
-        ] {
-            if relief & bit != 0 {
-                defs.push(def.into());
-            }
-        }
-        match key.bind_group_data.output {
-            1 => defs.push("FRUSTA_OUTPUT_GEOMETRY".into()),
-            2 => defs.push("FRUSTA_OUTPUT_NORMALS".into()),
-            _ => {}
-        }
-        if key
-            .mesh_key
-            .contains(MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO)
-        {
-            defs.push("FRUSTA_UNCLIPPED_DEPTH".into());
-        }
-        if let Some(fragment) = &mut descriptor.fragment {
-            fragment.shader_defs.extend(defs.iter().cloned());
-        }
-        descriptor.vertex.shader_defs.extend(defs);
+        let (samples, own) = (descriptor.multisample.count, key.bind_group_data);
+        let count = ShaderDefVal::UInt("FRUSTA_SAMPLES".into(), samples);
+        let unclipped = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
+        let relief = |bit| own.relief & bit != 0;
+        let output = |output: FrustaOutput| own.output == output as u8;
+        let defs = names([
+            (samples > 1, "FRUSTA_MULTISAMPLED"),
+            (own.geometric_normals != 0, "FRUSTA_GEOMETRIC_NORMALS"),
+            (relief(RELIEF), "FRUSTA_RELIEF"),
+            (relief(RELIEF_INTERPOLATED_V), "FRUSTA_INTERPOLATED_V"),
+            (relief(RELIEF_LEAPING), "FRUSTA_LEAPING"),
+            (relief(RELIEF_SELF_SHADOW), "FRUSTA_SELF_SHADOW"),
+            (output(FrustaOutput::Geometry), "FRUSTA_OUTPUT_GEOMETRY"),
+            (output(FrustaOutput::Normals), "FRUSTA_OUTPUT_NORMALS"),
+            (key.mesh_key.contains(unclipped), "FRUSTA_UNCLIPPED_DEPTH"),
+        ]);
+        define(descriptor, defs.chain([count]));
         Ok(())
     }
 }

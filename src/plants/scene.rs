@@ -1,6 +1,7 @@
 //! Scenes: several plants at their places.
 
-use bevy::math::Vec3;
+use bevy::math::{Quat, Vec3};
+use bevy::transform::components::Transform;
 
 use super::Plant;
 use super::dice::Dice;
@@ -28,6 +29,17 @@ pub struct Place {
     pub yaw: f32,
     /// Uniform scale, applied first; greater than 0.
     pub scale: f32,
+}
+
+impl Place {
+    /// From the plant's local space to the scene's.
+    pub fn transform(&self) -> Transform {
+        Transform {
+            translation: self.position,
+            rotation: Quat::from_rotation_y(self.yaw),
+            scale: Vec3::splat(self.scale),
+        }
+    }
 }
 
 impl Planting {

@@ -3,7 +3,7 @@
 //! Blended crowns are items of the transparent phase: sorted far to near among all that is transparent, and drawn as
 //! instances where neighbours in that order are of one slicing. Hashed ones are items of the alpha-mask phases.
 
-use bevy::asset::{Asset, AssetPath};
+use bevy::asset::Asset;
 use bevy::image::Image;
 use bevy::math::{UVec4, Vec2, Vec3, Vec4};
 use bevy::mesh::MeshVertexBufferLayoutRef;
@@ -20,6 +20,7 @@ use super::component::{Composition, CrownLighting, CrownSettings};
 use super::limits::MAX_ORIENTATIONS;
 use super::mesh::ATTRIBUTE_CORNER;
 use super::slicing::SlicingShape;
+use crate::pipeline::{define, embedded_shader, names};
 
 /// Metres that a crown's top gives for each metre a second of wind, for each metre of its radius.
 const FLEXIBILITY: f32 = 0.006;
@@ -123,11 +124,9 @@ impl From<&SlicedCrownMaterial> for CrownKey {
     }
 }
 
-/// Path of a shader of this folder.
+/// A shader of this folder.
 fn shader(name: &str) -> ShaderRef {
-    ShaderRef::Path(
-        AssetPath::parse(&format!("embedded://bevy_verdure/slicing/shaders/{name}")).into_owned(),
-    )
+    embedded_shader(&format!("slicing/shaders/{name}"))
 }
 
 impl Material for SlicedCrownMaterial {
@@ -168,7 +167,7 @@ impl Material for SlicedCrownMaterial {
         descriptor.primitive.cull_mode = None;
         let crown = key.bind_group_data;
         let light = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
-        for (set, def) in [
+        let defs = names([
             (crown.composition == Composition::Hashed, "CROWN_HASHED"),
             (crown.order == SliceOrder::Paper, "CROWN_PAPER_ORDER"),
             (crown.lighting == CrownLighting::Full, "CROWN_FULL_LIGHT"),
@@ -178,14 +177,8 @@ impl Material for SlicedCrownMaterial {
             ),
             (crown.frames, "CROWN_FRAMES"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
-        ] {
-            if set {
-                descriptor.vertex.shader_defs.push(def.into());
-                if let Some(fragment) = &mut descriptor.fragment {
-                    fragment.shader_defs.push(def.into());
-                }
-            }
-        }
+        ]);
+        define(descriptor, defs);
         Ok(())
     }
 }

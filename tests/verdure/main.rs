@@ -4,6 +4,7 @@ mod agreement;
 mod features;
 mod geometry;
 mod golden;
+mod jumps;
 mod lifecycle;
 mod live;
 mod meshes;

@@ -6,8 +6,8 @@ use super::map::{ReliefMap, half};
 /// in a channel of the map's finest level.
 const FIRST_LEVEL: usize = 2;
 
-/// For each mip level from [`FIRST_LEVEL`] on, and each of its pixels, the greatest of the map's own heights in that pixel and its eight
-/// neighbours, across the map's edges where it repeats.
+/// For each mip level from [`FIRST_LEVEL`] on, and each of its pixels, the greatest of the map's own heights in that
+/// pixel and its eight neighbours, across the map's edges where it repeats.
 pub(super) fn ceilings(map: &ReliefMap) -> Vec<Vec<u8>> {
     let mut size = map.size;
     let mut greatest = map.levels[0].clone();

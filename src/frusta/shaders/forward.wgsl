@@ -13,7 +13,7 @@
 #import bevy_verdure::frusta::material
 #import bevy_verdure::frusta::view::is_orthographic
 #ifdef FRUSTA_SELF_SHADOW
-#import bevy_verdure::frusta::self_shadow::{light_past_relief, main_light}
+#import bevy_verdure::frusta::self_shadow::self_shadow
 #endif
 
 @vertex
@@ -70,10 +70,7 @@ fn fragment(
     if (input.material.flags & pbr_types::STANDARD_MATERIAL_FLAGS_UNLIT_BIT) == 0u {
         out.color = apply_pbr_lighting(input);
 #ifdef FRUSTA_SELF_SHADOW
-        let kept_off = 1.0 - light_past_relief(seen, in.instance_index);
-        if kept_off > 0.0 {
-            out.color = vec4(max(out.color.rgb - kept_off * main_light(input), vec3(0.0)), out.color.a);
-        }
+        out.color = vec4(max(out.color.rgb - self_shadow(seen, input, in.instance_index), vec3(0.0)), out.color.a);
 #endif
     } else {
         out.color = input.material.base_color;

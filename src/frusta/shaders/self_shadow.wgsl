@@ -14,11 +14,21 @@
 #import bevy_verdure::frusta::trace::Seen
 #import bevy_verdure::frusta::view::{stand, pixel_width}
 
+// The light that a hit's own segment keeps off: what was added to it too much.
+fn self_shadow(seen: Seen, in: pbr_types::PbrInput, instance_index: u32) -> vec3<f32> {
+    // What faces away has no light to lose.
+    if lights.n_directional_lights == 0u || dot(in.N, lights.directional_lights[0].direction_to_light) <= 0.0 {
+        return vec3(0.0);
+    }
+    let kept_off = 1.0 - light_past_relief(seen, instance_index);
+    if kept_off <= 0.0 {
+        return vec3(0.0);
+    }
+    return kept_off * main_light(in);
+}
+
 // How much of the main light reaches a hit past its own segment's relief, 0 to 1.
 fn light_past_relief(seen: Seen, instance_index: u32) -> f32 {
-    if lights.n_directional_lights == 0u {
-        return 1.0;
-    }
     let shell = seen.shell;
     let p = seen.hit.point;
     let towards = stand(instance_index).local_from_world * lights.directional_lights[0].direction_to_light;

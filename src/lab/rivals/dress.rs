@@ -8,6 +8,7 @@ use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
 use crate::frusta::{Relief, ReliefThickness};
+use crate::lab::reference::relief::HeightImage;
 use crate::lab::texture::texture;
 use crate::plants::Surface;
 use crate::plants::maps::{Finish, Maps};
@@ -18,7 +19,8 @@ pub struct Dress {
     pub material: StandardMaterial,
     /// Relief, where there is some, as the defaults march it.
     pub relief: Option<Relief>,
-    maps: Maps,
+    heights: Option<HeightImage>,
+    size: UVec2,
     repeats: f64,
 }
 
@@ -47,33 +49,17 @@ impl Dress {
                 ..default()
             },
             relief,
-            maps,
+            heights: (maps.height)
+                .map(|heights| HeightImage::new(size.x as usize, size.y as usize, heights)),
+            size,
             repeats: f64::from(finish.repeats),
         }
     }
 
     /// Relief height at (u, v) of the skeleton's texture coordinates: the map's pixels, interpolated as a sampler does.
     pub fn height(&self, u: f64, v: f64) -> f64 {
-        let Some(heights) = &self.maps.height else {
-            return 1.0;
-        };
-        let [width, length] = self.maps.size.map(i64::from);
-        let (x, y) = (
-            u * width as f64 - 0.5,
-            v * self.repeats * length as f64 - 0.5,
-        );
-        let at = |x: f64, y: f64| {
-            let column = (x as i64).rem_euclid(width);
-            let row = (y as i64).rem_euclid(length);
-            f64::from(heights[(row * width + column) as usize]) / 255.0
-        };
-        let (left, top) = (x.floor(), y.floor());
-        let across = |row: f64| {
-            let (one, other) = (at(left, row), at(left + 1.0, row));
-            one + (other - one) * (x - left)
-        };
-        let (one, other) = (across(top), across(top + 1.0));
-        one + (other - one) * (y - top)
+        let heights = self.heights.as_ref();
+        heights.map_or(1.0, |heights| heights.sample(u, v * self.repeats))
     }
 
     /// Bytes of the relief map with its mip levels, as the device holds it; 0 without relief.
@@ -81,7 +67,7 @@ impl Dress {
         if self.relief.is_none() {
             return 0;
         }
-        let [mut width, mut length] = self.maps.size;
+        let [mut width, mut length] = self.size.to_array();
         let mut bytes = width * length;
         while [width, length] != [1, 1] {
             (width, length) = ((width / 2).max(1), (length / 2).max(1));

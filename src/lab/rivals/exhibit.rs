@@ -230,7 +230,7 @@ fn spawn(
                     Skeleton3d(skeleton.clone()),
                     Frusta::default().with_ends(ends),
                     MeshMaterial3d(material.clone()),
-                    transform(place),
+                    place.transform(),
                     Visibility::Hidden,
                 );
                 shown.entities.push(world.spawn(plant).id());
@@ -265,7 +265,7 @@ fn spawn(
                 let plant = (
                     Mesh3d(mesh.clone()),
                     MeshMaterial3d(material.clone()),
-                    transform(place),
+                    place.transform(),
                     Visibility::Hidden,
                 );
                 shown.entities.push(world.spawn(plant).id());
@@ -279,12 +279,4 @@ fn relief(relief: Option<&Relief>, march: Option<March>) -> Option<Relief> {
     let (mut relief, march) = (relief?.clone(), march?);
     march.apply(&mut relief);
     Some(relief)
-}
-
-fn transform(place: &Place) -> Transform {
-    Transform {
-        translation: place.position,
-        rotation: Quat::from_rotation_y(place.yaw),
-        scale: Vec3::splat(place.scale),
-    }
 }

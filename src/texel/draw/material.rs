@@ -1,6 +1,6 @@
 //! The material that draws slices, in Bevy's own phases: opaque but for what is discarded.
 
-use bevy::asset::{Asset, AssetPath};
+use bevy::asset::Asset;
 use bevy::image::Image;
 use bevy::material::OpaqueRendererMethod;
 use bevy::math::{UVec3, Vec3, Vec4};
@@ -17,6 +17,7 @@ use super::super::axis::SliceAxis;
 use super::super::choose::{DirectionRule, VolumeMeasure};
 use super::component::TexelSettings;
 use super::slots::ATTRIBUTE_SLOT;
+use crate::pipeline::{define, embedded_shader, names};
 
 /// A volume's measures and a surface's settings, as the shaders have them.
 #[derive(Clone, Copy, Debug, PartialEq, ShaderType)]
@@ -90,14 +91,9 @@ impl From<&TexelMaterial> for TexelKey {
     }
 }
 
-/// Path of a shader of this folder.
+/// A shader of this folder.
 fn shader(name: &str) -> ShaderRef {
-    ShaderRef::Path(
-        AssetPath::parse(&format!(
-            "embedded://bevy_verdure/texel/draw/shaders/{name}"
-        ))
-        .into_owned(),
-    )
+    embedded_shader(&format!("texel/draw/shaders/{name}"))
 }
 
 impl Material for TexelMaterial {
@@ -138,26 +134,17 @@ impl Material for TexelMaterial {
             .get_layout(&[ATTRIBUTE_SLOT.at_shader_location(0)])?;
         descriptor.vertex.buffers = vec![corners];
         descriptor.primitive.cull_mode = None;
-        let axis = ShaderDefVal::UInt("TEXEL_AXIS".into(), key.bind_group_data.axis.into());
-        descriptor.vertex.shader_defs.push(axis.clone());
-        if let Some(fragment) = &mut descriptor.fragment {
-            fragment.shader_defs.push(axis);
-        }
+        let own = key.bind_group_data;
+        let axis = ShaderDefVal::UInt("TEXEL_AXIS".into(), own.axis.into());
         // The shaders know where four samples lie; with more or fewer, texels have plain outlines.
         let four = descriptor.multisample.count == 4;
         let sun = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
-        for (set, def) in [
-            (key.bind_group_data.lit, "TEXEL_LIT"),
+        let defs = names([
+            (own.lit, "TEXEL_LIT"),
             (key.mesh_key.contains(sun), "TEXEL_DIRECTIONAL_LIGHT"),
             (four, "TEXEL_FOUR_SAMPLES"),
-        ] {
-            if set {
-                descriptor.vertex.shader_defs.push(def.into());
-                if let Some(fragment) = &mut descriptor.fragment {
-                    fragment.shader_defs.push(def.into());
-                }
-            }
-        }
+        ]);
+        define(descriptor, defs.chain([axis]));
         Ok(())
     }
 }

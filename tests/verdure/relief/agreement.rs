@@ -5,13 +5,11 @@ use bevy_verdure::lab::reference::relief::{
     HeightImage, ReliefOptions, ReliefScene, ShellThickness,
 };
 use bevy_verdure::lab::reference::{ReferenceEnds, ReferenceJoin, ReferenceSettings};
-use bevy_verdure::lab::{Lens, NEAR, Shot, Studio};
+use bevy_verdure::lab::{NEAR, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use super::{THICKNESS, add_map, bumps, limb};
+use super::{THICKNESS, add_map, bumps, limb, views};
 use crate::skeletons::reference_joints;
-
-const SIZE: UVec2 = UVec2::new(160, 120);
 
 /// What was found in one picture.
 #[derive(Default, Debug)]
@@ -86,20 +84,13 @@ fn agree(
         studio.headless.step();
     }
     let mut sum = Tally::default();
-    for (eye, lens) in [
-        (Vec3::new(3.0, 2.5, 6.0), Lens::Perspective(0.7)),
-        (Vec3::new(0.6, 1.5, 0.9), Lens::Perspective(1.2)),
-        (Vec3::new(1.0, 9.0, 1.0), Lens::Perspective(0.5)),
-        (Vec3::new(-4.0, 3.0, 4.0), Lens::Orthographic(5.0)),
-    ] {
-        let shot = Shot {
-            eye,
-            at: Vec3::Y * 1.8,
-            lens,
-            size: SIZE,
-        };
+    for shot in views() {
         let tally = compare(&mut studio, &scene, &shot);
-        println!("{eye}: {tally:?}, mean {}", tally.error / tally.hits as f64);
+        println!(
+            "{}: {tally:?}, mean {}",
+            shot.eye,
+            tally.error / tally.hits as f64
+        );
         sum.hits += tally.hits;
         sum.wrong += tally.wrong;
         sum.deep += tally.deep;

@@ -2,11 +2,11 @@
 
 use bevy::prelude::*;
 use bevy_verdure::frusta::ReliefV;
+use bevy_verdure::lab::Studio;
 use bevy_verdure::lab::reference::relief::HeightImage;
-use bevy_verdure::lab::{Lens, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use super::{THICKNESS, image, limb};
+use super::{THICKNESS, image, limb, views};
 
 /// No powers of two: levels whose pixels overlap.
 pub const MAP: UVec2 = UVec2::new(150, 97);
@@ -60,18 +60,7 @@ fn leaps_find_what_steps_find() {
             .expect("a plant has a material")
             .0
             .clone();
-        for (eye, lens) in [
-            (Vec3::new(3.0, 2.5, 6.0), Lens::Perspective(0.7)),
-            (Vec3::new(0.6, 1.5, 0.9), Lens::Perspective(1.2)),
-            (Vec3::new(1.0, 9.0, 1.0), Lens::Perspective(0.5)),
-            (Vec3::new(-4.0, 3.0, 4.0), Lens::Orthographic(5.0)),
-        ] {
-            let shot = Shot {
-                eye,
-                at: Vec3::Y * 1.8,
-                lens,
-                size: UVec2::new(160, 120),
-            };
+        for shot in views() {
             let mut figures = [ReliefMarch::Uniform, ReliefMarch::Leaping].map(|march| {
                 let mut materials = studio.world().resource_mut::<Assets<FrustaMaterial>>();
                 *materials
@@ -92,9 +81,12 @@ fn leaps_find_what_steps_find() {
                     (a, b) => a.is_some() != b.is_some(),
                 });
             }
-            println!("{v:?} {join:?} from {eye}: {other} of {hits} pixels differ");
+            println!(
+                "{v:?} {join:?} from {}: {other} of {hits} pixels differ",
+                shot.eye
+            );
             assert!(hits > 1000);
-            assert_eq!(other, 0, "{v:?} {join:?} from {eye}");
+            assert_eq!(other, 0, "{v:?} {join:?} from {}", shot.eye);
         }
     }
 }

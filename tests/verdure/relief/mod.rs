@@ -11,9 +11,14 @@ use core::f32::consts::TAU;
 use bevy::asset::RenderAssetUsages;
 use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
-use bevy_verdure::lab::reference::relief::HeightImage;
+use bevy_verdure::lab::reference::ReferenceSettings;
+use bevy_verdure::lab::reference::relief::{
+    HeightImage, ReliefOptions, ReliefScene, ShellThickness,
+};
 use bevy_verdure::lab::{Lens, Shot, Studio};
 use bevy_verdure::prelude::*;
+
+use crate::skeletons::reference_joints;
 
 /// Thickness of the shell, in metres.
 const THICKNESS: f32 = 0.08;
@@ -89,6 +94,38 @@ const SHOT: Shot = Shot {
     lens: Lens::Perspective(0.7),
     size: UVec2::new(160, 120),
 };
+
+/// From afar, from close by, from above, and without perspective.
+fn views() -> [Shot; 4] {
+    [
+        (Vec3::new(3.0, 2.5, 6.0), Lens::Perspective(0.7)),
+        (Vec3::new(0.6, 1.5, 0.9), Lens::Perspective(1.2)),
+        (Vec3::new(1.0, 9.0, 1.0), Lens::Perspective(0.5)),
+        (Vec3::new(-4.0, 3.0, 4.0), Lens::Orthographic(5.0)),
+    ]
+    .map(|(eye, lens)| Shot {
+        eye,
+        at: Vec3::Y * 1.8,
+        lens,
+        size: UVec2::new(160, 120),
+    })
+}
+
+/// The limb of most pictures in the reference, with a relief of [`THICKNESS`].
+fn with_reference<T>(map: &HeightImage, look: impl FnOnce(&ReliefScene) -> T) -> T {
+    let height = |u: f64, v: f64| map.sample(u, v);
+    let options = ReliefOptions {
+        continuous_u: true,
+        steps: 512,
+        ..default()
+    };
+    let joints = reference_joints(&limb(0.75, 0.5));
+    let thickness = ShellThickness::Metres(f64::from(THICKNESS));
+    let settings = ReferenceSettings::default();
+    look(&ReliefScene::with_options(
+        &joints, settings, &height, thickness, &options,
+    ))
+}
 
 /// A limb of four segments that bends, with or without taper.
 fn limb(taper: f32, bend: f32) -> Skeleton {

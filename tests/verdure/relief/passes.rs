@@ -8,13 +8,10 @@ use bevy::material::OpaqueRendererMethod;
 use bevy::math::DVec3;
 use bevy::prelude::*;
 use bevy_verdure::frusta::ReliefV;
-use bevy_verdure::lab::reference::ReferenceSettings;
-use bevy_verdure::lab::reference::relief::{ReliefOptions, ReliefScene, ShellThickness};
 use bevy_verdure::lab::{NEAR, Pixels, Studio, mean_flip};
 use bevy_verdure::prelude::*;
 
-use super::{SHOT, THICKNESS, bumps, limb, studio_with};
-use crate::skeletons::reference_joints;
+use super::{SHOT, bumps, limb, studio_with, with_reference};
 
 /// Greatest mean FLIP between two ways to draw one picture, as for plants without relief (`twins.rs`).
 const SAME: f32 = 0.003;
@@ -105,23 +102,6 @@ fn check_alike(one: &Pixels, other: &Pixels) {
     assert!(flip < SAME, "{flip}");
 }
 
-/// The relief in the reference.
-fn with_reference<T>(look: impl FnOnce(&ReliefScene) -> T) -> T {
-    let map = bumps();
-    let height = |u: f64, v: f64| map.sample(u, v);
-    let options = ReliefOptions {
-        continuous_u: true,
-        steps: 512,
-        ..default()
-    };
-    let joints = reference_joints(&limb(0.75, 0.5));
-    let thickness = ShellThickness::Metres(f64::from(THICKNESS));
-    let settings = ReferenceSettings::default();
-    look(&ReliefScene::with_options(
-        &joints, settings, &height, thickness, &options,
-    ))
-}
-
 #[test]
 fn multisampled_outlines_of_relief_have_their_coverage() {
     let white = StandardMaterial {
@@ -137,7 +117,7 @@ fn multisampled_outlines_of_relief_have_their_coverage() {
     studio.world().entity_mut(camera).insert(Msaa::Sample4);
     let picture = studio.photograph(&SHOT, Color::BLACK);
     let (mut outline, mut off) = (0, 0);
-    with_reference(|scene| {
+    with_reference(&bumps(), |scene| {
         for (x, y) in (0..SHOT.size.y).flat_map(|y| (0..SHOT.size.x).map(move |x| (x, y))) {
             let srgb = f32::from(picture.rgb(x, y)[0]) / 255.0;
             let seen = Color::srgb(srgb, 0.0, 0.0).to_linear().red;
@@ -197,7 +177,7 @@ fn shadows_follow_the_relief() {
     };
     let picture = studio.photograph(&shot, Color::BLACK);
     let (mut dark, mut wrong) = (0, 0);
-    with_reference(|scene| {
+    with_reference(&bumps(), |scene| {
         let to_sun = -SUN.as_dvec3().normalize();
         let shade = |x: f32, y: f32| {
             let (origin, direction) = shot.ray(x, y);

@@ -2,14 +2,11 @@
 
 use bevy::core_pipeline::prepass::{DepthPrepass, NormalPrepass};
 use bevy::prelude::*;
-use bevy_verdure::lab::reference::ReferenceSettings;
-use bevy_verdure::lab::reference::relief::{ReliefOptions, ReliefScene, ShellThickness};
 use bevy_verdure::lab::{Lens, NEAR, Pixels, Shot, Studio};
 use bevy_verdure::prelude::*;
 
 use super::leaping::{MAP, studs};
-use super::{THICKNESS, image, limb};
-use crate::skeletons::reference_joints;
+use super::{THICKNESS, image, limb, with_reference};
 
 /// Near enough for a pixel of the map to cover more than one of the screen.
 const SHOT: Shot = Shot {
@@ -54,46 +51,34 @@ fn what_the_reference_cannot_see_the_sun_from_is_darker_and_the_rest_is_not() {
     let (plain, shadowed) = (picture(0, |_| {}), picture(32, |_| {}));
     let (mut dark, mut light, mut wrong) = (0, 0, 0);
     let Shot { size, .. } = SHOT;
-    let map = studs();
-    let height = |u: f64, v: f64| map.sample(u, v);
-    let options = ReliefOptions {
-        continuous_u: true,
-        steps: 512,
-        ..default()
-    };
-    let scene = ReliefScene::with_options(
-        &reference_joints(&limb(0.75, 0.5)),
-        ReferenceSettings::default(),
-        &height,
-        ShellThickness::Metres(f64::from(THICKNESS)),
-        &options,
-    );
-    for (x, y) in (0..size.y).flat_map(|y| (0..size.x).map(move |x| (x, y))) {
-        let (origin, direction) = SHOT.ray(x as f32 + 0.5, y as f32 + 0.5);
-        let Some(hit) = scene.cast(origin, direction, f64::from(NEAR)) else {
-            continue;
-        };
-        let sun = -SUN.as_dvec3().normalize();
-        let lit = u32::from(plain.rgb(x, y)[1]);
-        // In the last of the light the shadow cannot be told from the shade.
-        if lit < 40 || hit.normal.dot(sun) < 0.1 {
-            continue;
+    with_reference(&studs(), |scene| {
+        for (x, y) in (0..size.y).flat_map(|y| (0..size.x).map(move |x| (x, y))) {
+            let (origin, direction) = SHOT.ray(x as f32 + 0.5, y as f32 + 0.5);
+            let Some(hit) = scene.cast(origin, direction, f64::from(NEAR)) else {
+                continue;
+            };
+            let sun = -SUN.as_dvec3().normalize();
+            let lit = u32::from(plain.rgb(x, y)[1]);
+            // In the last of the light the shadow cannot be told from the shade.
+            if lit < 40 || hit.normal.dot(sun) < 0.1 {
+                continue;
+            }
+            let start = hit.position + hit.normal * 1e-3;
+            let between = scene.cast(start, sun, 0.0);
+            // Others' shadows are the shadow map's.
+            if between.is_some_and(|between| between.segment != hit.segment) {
+                continue;
+            }
+            let left = f64::from(shadowed.rgb(x, y)[1]) / f64::from(lit);
+            if between.is_some() {
+                dark += 1;
+                wrong += usize::from(left > 0.9);
+            } else {
+                light += 1;
+                wrong += usize::from(left < 0.5);
+            }
         }
-        let start = hit.position + hit.normal * 1e-3;
-        let between = scene.cast(start, sun, 0.0);
-        // Others' shadows are the shadow map's.
-        if between.is_some_and(|between| between.segment != hit.segment) {
-            continue;
-        }
-        let left = f64::from(shadowed.rgb(x, y)[1]) / f64::from(lit);
-        if between.is_some() {
-            dark += 1;
-            wrong += usize::from(left > 0.9);
-        } else {
-            light += 1;
-            wrong += usize::from(left < 0.5);
-        }
-    }
+    });
     println!("{dark} pixels in shadow, {light} in light, {wrong} wrong");
     assert!(dark > 100 && light > 500);
     // Rims of shadows are soft, and drawn by 32 steps.

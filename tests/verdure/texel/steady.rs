@@ -4,11 +4,12 @@ use bevy::prelude::*;
 use bevy_verdure::lab::Studio;
 use bevy_verdure::prelude::*;
 
+use crate::jumps::jumps;
+
 use super::{BACKGROUND, Square, cover, shot, unlit};
 
-/// Largest and median mean difference, in steps of 8 bits, of neighbouring frames of an eye that rises from aslant to
-/// above, half a degree a frame: past all changes of count and direction.
-fn jumps(fade: bool) -> (f64, f64) {
+/// The jumps of an eye that rises from aslant to above, half a degree a frame: past all changes of count and direction.
+fn rise(fade: bool) -> (f64, f64) {
     let mut studio = Studio::default();
     let settings = TexelSettings { fade, ..unlit() };
     cover(
@@ -17,27 +18,17 @@ fn jumps(fade: bool) -> (f64, f64) {
         Transform::IDENTITY,
         settings,
     );
-    let mut before: Option<Vec<u8>> = None;
-    let mut jumps = Vec::new();
-    for i in 45..125 {
+    jumps((45..125).map(|i| {
         let (sin, cos) = (10.0 + 0.5 * i as f32).to_radians().sin_cos();
         let eye = Vec3::new(0.5, 0.5, -0.5) + Vec3::new(0.4 * cos, sin, 0.9 * cos) * 3.0;
-        let bytes = studio.photograph(&shot(eye), BACKGROUND).rgb_bytes();
-        if let Some(before) = before.replace(bytes.clone()) {
-            let pairs = before.iter().zip(&bytes);
-            let sum: f64 = pairs.map(|(a, b)| f64::from(a.abs_diff(*b))).sum();
-            jumps.push(sum / bytes.len() as f64);
-        }
-    }
-    let largest = jumps.iter().copied().fold(0.0, f64::max);
-    jumps.sort_by(f64::total_cmp);
-    (largest, jumps[jumps.len() / 2])
+        studio.photograph(&shot(eye), BACKGROUND)
+    }))
 }
 
 #[test]
 fn nothing_pops_where_changes_fade() {
     let ratio = |fade| {
-        let (largest, median) = jumps(fade);
+        let (largest, median) = rise(fade);
         println!(
             "fade {fade}: largest {largest:.4}, median {median:.4}, {:.2}",
             largest / median
