@@ -27,6 +27,7 @@ mod ron_text;
 pub mod skeleton;
 pub mod slicing;
 pub mod texel;
+mod texture_array;
 pub mod wind;
 
 use bevy::app::PluginGroupBuilder;

@@ -12,7 +12,7 @@ const SAMPLES: u32 = 4;
 /// Vertical field of view, in radians, and lines of the screen that pictures are cut from.
 const SCREEN: (f32, f32) = (0.9, 480.0);
 /// What is behind.
-const SKY: Color = Color::srgb(0.6, 0.8, 1.0);
+pub const SKY: Color = Color::srgb(0.6, 0.8, 1.0);
 
 /// A shot that the crown fills, from a distance, an azimuth and an elevation in degrees, with the pixels of the screen.
 fn shot(lab: &Lab, distance: f32, azimuth: f32, elevation: f32) -> Shot {
@@ -69,19 +69,14 @@ pub fn flips(lab: &mut Lab, shots: &[Shot], ways: &[(String, Drawn)]) -> Vec<f64
     errors
 }
 
-/// The same of slicings, for each of some settings.
-fn errors(
-    lab: &mut Lab,
-    shots: &[Shot],
-    settings: &[(BakeSettings, CrownSettings)],
-) -> Result<Vec<f64>, String> {
-    let mut errors = Vec::new();
-    for (bake, crown) in settings {
+/// Slicings of some settings, by name.
+fn baked(lab: &mut Lab, bakes: &[BakeSettings]) -> Result<Vec<(String, Drawn)>, String> {
+    let slicing = |bake: &BakeSettings| {
         let name = format!("{:?} {:?} {}", bake.orientations, bake.levels, bake.pixels);
-        let drawn = Drawn::Slicing(lab.bake(bake)?, *crown);
-        errors.extend(flips(lab, shots, &[(name, drawn)]));
-    }
-    Ok(errors)
+        let drawn = Drawn::Slicing(lab.bake(bake)?, CrownSettings::default());
+        Ok((name, drawn))
+    };
+    bakes.iter().map(slicing).collect()
 }
 
 /// Eyes on a circle, off the orientations.
@@ -101,10 +96,8 @@ fn chart(
     default: u32,
     make: impl Fn(u32) -> BakeSettings,
 ) -> Result<Chart, String> {
-    let settings: Vec<_> = numbers
-        .iter()
-        .map(|n| (make(*n), CrownSettings::default()))
-        .collect();
+    let bakes: Vec<_> = numbers.iter().map(|n| make(*n)).collect();
+    let slicings = baked(lab, &bakes)?;
     let mut series = Vec::new();
     let distances: &[f32] = if lab.quick {
         &[25.0]
@@ -113,7 +106,7 @@ fn chart(
     };
     for distance in distances {
         let shots = circle(lab, *distance);
-        let errors = errors(lab, &shots, &settings)?;
+        let errors = flips(lab, &shots, &slicings);
         let points = numbers
             .iter()
             .zip(errors)
@@ -179,19 +172,17 @@ pub fn against_elevation(lab: &mut Lab) -> Result<Chart, String> {
         .iter()
         .map(|(name, _)| Series::line(*name, Vec::<Point>::new()))
         .collect();
+    let bakes = ways.map(|(_, vertical)| BakeSettings {
+        vertical,
+        ..BakeSettings::default().with_slices(5)
+    });
+    let slicings = baked(lab, &bakes)?;
     let step = if lab.quick { 40 } else { 20 };
     for elevation in (-30..=90).step_by(step) {
         let shots: Vec<_> = [33.0, 167.0, 272.0]
             .map(|azimuth| shot(lab, 25.0, azimuth, elevation as f32))
             .into();
-        let settings = ways.map(|(_, vertical)| {
-            let bake = BakeSettings {
-                vertical,
-                ..BakeSettings::default().with_slices(5)
-            };
-            (bake, CrownSettings::default())
-        });
-        let errors = errors(lab, &shots, &settings)?;
+        let errors = flips(lab, &shots, &slicings);
         for (series, error) in series.iter_mut().zip(errors) {
             series.points.push((f64::from(elevation), error).into());
         }

@@ -5,6 +5,7 @@ use bevy_verdure::lab::charts::{Axis, Chart, Series};
 use bevy_verdure::lab::{Clock, Headless, Race, Variant};
 use bevy_verdure::prelude::*;
 
+use super::accuracy::SKY;
 use super::grove;
 use super::lab::{Drawn, Lab};
 
@@ -51,8 +52,7 @@ pub fn costs(lab: &mut Lab, title: &str, usual: &[u32], ways: &[Way]) -> Result<
             .iter()
             .map(|i| grove::plant(lab, &ways[*i].1, trees, ways[*i].2))
             .collect();
-        lab.studio
-            .photograph(&grove::SHOT, Color::srgb(0.6, 0.8, 1.0));
+        lab.studio.photograph(&grove::SHOT, SKY);
         let groups = &groups;
         let mut variants: Vec<Variant> = [None]
             .into_iter()

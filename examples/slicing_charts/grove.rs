@@ -32,15 +32,9 @@ pub fn plant(lab: &mut Lab, drawn: &Drawn, trees: u32, casts_shadows: bool) -> V
         })
         .collect();
     if !casts_shadows {
-        let world = lab.studio.world();
         for tree in &group {
-            let crown: Vec<Entity> = world
-                .get::<Children>(*tree)
-                .map(|children| children.iter().collect())
-                .unwrap_or_default();
-            for part in crown.into_iter().chain([*tree]) {
-                world.entity_mut(part).insert(NotShadowCaster);
-            }
+            let mut tree = lab.studio.world().entity_mut(*tree);
+            tree.insert_recursive::<Children>(NotShadowCaster);
         }
     }
     group

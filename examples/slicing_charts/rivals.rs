@@ -9,12 +9,12 @@ use super::accuracy::{circle, flips};
 use super::cost::{Way, costs};
 use super::lab::{Drawn, Lab};
 
-/// The slicing of the defaults, its levels alone, and its rivals.
+/// The slicing of the defaults, its rivals, and slicings of one level of so many slices each.
 ///
-/// An impostor is a picture from each of many directions, the nearest three blended. Its pictures stand where their
-/// directions look from, as slices do, so that it is a slicing of one slice: over the circle like the slicing itself, or
-/// over the sphere. With as many pictures of the same pixels as the slicing has slices (up to what a slicing may hold).
-fn ways(lab: &mut Lab) -> Result<Vec<(String, Drawn)>, String> {
+/// An impostor is a picture from each of many directions, of which the nearest two (circle) or three (sphere) are blended.
+/// Its pictures stand where their directions look from, as slices do, so that it is a slicing of one slice: 31 pictures of
+/// the same pixels as the 63 slices of the slicing.
+fn ways(lab: &mut Lab, levels: &[u32]) -> Result<Vec<(String, Drawn)>, String> {
     let slices = |count| BakeSettings::default().with_slices(count);
     let impostor = |orientations| BakeSettings {
         vertical: false,
@@ -22,20 +22,19 @@ fn ways(lab: &mut Lab) -> Result<Vec<(String, Drawn)>, String> {
     };
     let bakes = [
         ("slicing", BakeSettings::default()),
-        ("5 slices", slices(5)),
-        ("3 slices", slices(3)),
-        ("1 slice", slices(1)),
         ("impostor, 31 views", impostor(Orientations::Circle(31))),
         (
             "impostor, 31 views of the sphere",
             impostor(Orientations::Sphere(31)),
         ),
-    ];
+    ]
+    .map(|(name, bake)| (name.to_string(), bake));
+    let levels = levels.iter().map(|n| (format!("slices: {n}"), slices(*n)));
     let mut ways = Vec::new();
-    for (name, bake) in bakes {
+    for (name, bake) in bakes.into_iter().chain(levels) {
         let slicing = lab.bake(&bake)?;
         let drawn = Drawn::Slicing(slicing, CrownSettings::default());
-        ways.push((name.to_string(), drawn));
+        ways.push((name, drawn));
     }
     let crown = lab.crown.clone();
     let pair =
@@ -46,7 +45,7 @@ fn ways(lab: &mut Lab) -> Result<Vec<(String, Drawn)>, String> {
 
 /// Error against distance.
 pub fn errors(lab: &mut Lab) -> Result<Chart, String> {
-    let ways = ways(lab)?;
+    let ways = ways(lab, &[5, 3, 1])?;
     let mut series: Vec<_> = ways
         .iter()
         .map(|(name, _)| Series::line(name.as_str(), Vec::<(f64, f64)>::new()))
@@ -69,10 +68,8 @@ pub fn errors(lab: &mut Lab) -> Result<Chart, String> {
 
 /// Cost against trees.
 pub fn cost(lab: &mut Lab) -> Result<Chart, String> {
-    let is_rival = |name: &str| !name.contains("slice");
-    let ways: Vec<Way> = ways(lab)?
+    let ways: Vec<Way> = ways(lab, &[])?
         .into_iter()
-        .filter(|(name, _)| is_rival(name))
         .map(|(name, drawn)| (name, drawn, true))
         .chain([("mesh".to_string(), Drawn::Mesh, true)])
         .collect();

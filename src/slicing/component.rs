@@ -73,8 +73,8 @@ pub enum CrownLighting {
     /// As Bevy lights a `StandardMaterial`: every kind of light, environment maps, gloss, filtered shadows.
     Full,
     /// Directional lights with their shadow maps, ambient light and fog. Leaves scatter light evenly, gloss included, and
-    /// shadows are looked up without a filter, whose work the layers of the crown do. Two fifths of `Full` among
-    /// many trees, and as near to the mesh.
+    /// shadows are looked up by the shadow map's own filter of two by two pixels alone; the layers of the crown do the
+    /// rest. Two fifths of `Full` among many trees, and hardly told from it.
     ///
     /// While the world has a point, spot or rectangular light, an environment map, an irradiance volume, a light with a
     /// texture or an atmosphere, even a hidden one, such crowns are lit as by `Full`.

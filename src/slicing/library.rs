@@ -87,7 +87,6 @@ impl Shared {
         slicing: &Slicing,
         settings: CrownSettings,
         wind: Vec3,
-        lights: &CrownLights,
         assets: &mut CrownAssets,
     ) -> Handle<SlicedCrownMaterial> {
         let make = || {
@@ -97,7 +96,8 @@ impl Shared {
                 color: self.color.clone(),
                 normal: self.normal.clone(),
                 settings,
-                lighting: lights.lighting(settings.lighting),
+                // Until `follow_lights` says otherwise, in this very frame.
+                lighting: settings.lighting,
             })
         };
         self.materials.entry(settings).or_insert_with(make).clone()
@@ -119,7 +119,6 @@ pub(crate) fn attach(
     mut assets: CrownAssets,
     slicings: Res<Assets<Slicing>>,
     wind: Res<Wind>,
-    lights: CrownLights,
     crowns: Query<(Entity, &SlicedCrown, &CrownSettings), Unattached>,
 ) {
     if crowns.is_empty() {
@@ -132,7 +131,7 @@ pub(crate) fn attach(
         };
         let shared = library.shared.entry(handle.id());
         let shared = shared.or_insert_with(|| Shared::new(slicing, &mut assets));
-        let material = shared.material(slicing, *settings, wind, &lights, &mut assets);
+        let material = shared.material(slicing, *settings, wind, &mut assets);
         commands.entity(entity).try_insert((
             Mesh3d(shared.mesh.clone()),
             MeshMaterial3d(material),
@@ -189,17 +188,14 @@ pub(crate) fn follow_lights(
     mut materials: ResMut<Assets<SlicedCrownMaterial>>,
     lights: CrownLights,
 ) {
-    for handle in library
-        .shared
-        .values()
-        .flat_map(|shared| shared.materials.values())
-    {
-        let lighting = |material: &SlicedCrownMaterial| lights.lighting(material.settings.lighting);
-        let is_other = |material: &SlicedCrownMaterial| material.lighting != lighting(material);
-        if materials.get(handle).is_some_and(is_other)
-            && let Some(mut material) = materials.get_mut(handle)
+    let all = library.shared.values();
+    for (settings, material) in all.flat_map(|shared| &shared.materials) {
+        let lighting = lights.lighting(settings.lighting);
+        // Only what is written to counts as changed.
+        if let Some(mut material) = materials.get_mut(material)
+            && material.lighting != lighting
         {
-            material.lighting = lighting(&material);
+            material.lighting = lighting;
         }
     }
 }

@@ -88,12 +88,8 @@ fn look(
     let mix = |channel: usize| {
         a.color[channel] * weights.x + b.color[channel] * weights.y + c.color[channel] * weights.z
     };
-    let mut color: [f32; 4] = core::array::from_fn(|i| mix(i) * material.color[i]);
-    if material.texture.is_some() {
-        let uv = a.uv * weights.x + b.uv * weights.y + c.uv * weights.z;
-        let texture = material.sample(uv);
-        color = core::array::from_fn(|i| color[i] * texture[i]);
-    }
+    let texture = material.sample(a.uv * weights.x + b.uv * weights.y + c.uv * weights.z);
+    let color: [f32; 4] = core::array::from_fn(|i| mix(i) * material.color[i] * texture[i]);
     let normal = a.normal * weights.x + b.normal * weights.y + c.normal * weights.z;
     let normal = normal.normalize_or(direction);
     Look {

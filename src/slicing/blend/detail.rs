@@ -9,11 +9,6 @@ const FADE: f32 = 0.1;
 /// The screen that levels of detail are made for: pixels that a metre takes one metre away. 480 lines of 52° have so many.
 pub const FOCAL: f32 = 500.0;
 
-/// How many radii away a crown would be as small on the screen of [`FOCAL`] as it is so many radii away on one of `focal`.
-pub fn apparent_distance(distance: f32, focal: f32) -> f32 {
-    distance * FOCAL / focal
-}
-
 /// Two levels of detail and their shares for a crown that is, apparently, so many radii away: that of the first level,
 /// and 1 minus it of the next coarser one.
 pub fn levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (usize, f32) {

@@ -3,12 +3,12 @@
 //! `weights.rs` finds the slicings and their weights, `detail.rs` the level; here they become slices, far to near.
 //! `shaders/blend.wgsl` has the same functions by the same names.
 
-use bevy::math::{FloatExt, Vec3};
+use bevy::math::Vec3;
 
 mod detail;
 mod weights;
 
-pub use detail::{FOCAL, apparent_distance, levels};
+pub use detail::{FOCAL, levels};
 pub use weights::{SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slots};
 
 use super::slicing::SlicingShape;
@@ -122,18 +122,8 @@ pub fn cast_slices(
 
 /// 0 up to `low`, 1 from `high`, and an S between.
 fn smooth(low: f32, high: f32, x: f32) -> f32 {
-    let t = x.inverse_lerp_clamped(low, high);
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
-}
-
-trait InverseLerp {
-    fn inverse_lerp_clamped(self, low: f32, high: f32) -> f32;
-}
-
-impl InverseLerp for f32 {
-    fn inverse_lerp_clamped(self, low: f32, high: f32) -> f32 {
-        f32::inverse_lerp(low, high, self).clamp(0.0, 1.0)
-    }
 }
 
 #[cfg(test)]

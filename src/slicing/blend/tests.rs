@@ -67,7 +67,7 @@ fn an_eye_above_counts_by_its_projection_to_the_plane_of_both() {
     }
 }
 
-/// The opacity of every slice, and the order of those that matter.
+/// All slices for an eye, in the steady order.
 fn draw(shape: &SlicingShape, eye: Vec3) -> Vec<DrawnSlice> {
     drawn_slices(shape, eye, SliceOrder::Steady, 0)
 }
@@ -94,7 +94,7 @@ fn nothing_pops_on_any_way_of_the_eye() {
                 };
                 for s in before.iter().chain(&after) {
                     let change = (opacity(&before, key(s)) - opacity(&after, key(s))).abs();
-                    // A turn takes 20,000 steps; opacities fall by ½ in 30° at most, and gain by the correction.
+                    // A turn takes 20,000 steps; opacities fall by ½ in 30° at most.
                     assert!(change < 0.01, "{s:?} at {step}: {change}");
                 }
                 let matter = |all: &[DrawnSlice]| -> Vec<_> {

@@ -15,12 +15,12 @@ struct Facing {
 
 fn slice_color(in: Varying) -> vec4<f32> {
     var color = textureSample(color_texture, slice_sampler, in.uv, in.layer);
+#ifndef CROWN_LIGHT_VIEW
 #ifdef CROWN_PAPER_ORDER
     color.a *= in.opacity;
-#else ifndef CROWN_LIGHT_VIEW
+#else
     color.a = covered(color.a, in.opacity);
 #endif
-#ifndef CROWN_LIGHT_VIEW
     color = vec4(color.rgb * in.tint, color.a);
 #endif
 #ifdef CROWN_FRAMES

@@ -61,11 +61,16 @@ fn world_from_local(instance_index: u32) -> mat3x3<f32> {
     return transpose(mat3x3(m[0].xyz, m[1].xyz, m[2].xyz));
 }
 
-fn local_from_world(instance_index: u32) -> mat3x3<f32> {
-    return transpose(mat2x4_f32_to_mat3x3_unpack(
+// The transpose of `local_from_world`.
+fn turn_of_normals(instance_index: u32) -> mat3x3<f32> {
+    return mat2x4_f32_to_mat3x3_unpack(
         mesh[instance_index].local_from_world_transpose_a,
         mesh[instance_index].local_from_world_transpose_b,
-    ));
+    );
+}
+
+fn local_from_world(instance_index: u32) -> mat3x3<f32> {
+    return transpose(turn_of_normals(instance_index));
 }
 
 // The tint of a crown: its square root in 8 bits a channel.
@@ -97,7 +102,7 @@ fn metre(instance_index: u32) -> f32 {
 
 // Pixels of the view for a metre: one metre away, or anywhere in an orthographic view.
 fn pixels_per_metre() -> f32 {
-    return 0.5 * view.viewport.w * view.clip_from_view[1].y;
+    return 0.5 * view.viewport.w * abs(view.clip_from_view[1].y);
 }
 
 // How many radii away a crown would be as small as it is here, on the screen that levels of detail are made for.
@@ -126,6 +131,7 @@ fn place_corner(in: Corner) -> Varying {
         return out;
     }
     let o = crown.orientations[slice.orientation];
+    let faces = dot(o.direction, direction) >= 0.0;
     let count = crown.levels[slice.level];
     let layer = first_layer(slice.level, slice.orientation) + slice.index;
     let pair = octagons[layer * 4u + (in.corner & 7u) / 2u];
@@ -144,7 +150,7 @@ fn place_corner(in: Corner) -> Varying {
 #ifdef CROWN_LIGHT_VIEW
     // Leaves lie up to half the spacing before and behind the slice that their light meets, and before and behind that
     // which the eye sees: cast from a little deeper, few shade themselves, and those of one slice still shade each other.
-    depth -= select(-DEEPER, DEEPER, dot(o.direction, direction) >= 0.0) * spacing;
+    depth -= select(-DEEPER, DEEPER, faces) * spacing;
 #endif
     let local = crown.centroid
         + o.right * (o.low.x + uv.x * size.x)
@@ -183,14 +189,11 @@ fn place_corner(in: Corner) -> Varying {
 #else
     out.tint = tint(tag);
     out.world_position = from_eye + view.world_position;
-    let turn = mat2x4_f32_to_mat3x3_unpack(
-        mesh[in.instance_index].local_from_world_transpose_a,
-        mesh[in.instance_index].local_from_world_transpose_b,
-    );
+    let turn = turn_of_normals(in.instance_index);
     out.turn_x = turn[0];
     out.turn_y = turn[1];
     out.turn_z = turn[2];
-    out.back = select(o.direction, vec3(0.0), dot(o.direction, direction) >= 0.0);
+    out.back = select(o.direction, vec3(0.0), faces);
 #ifdef PREPASS_PIPELINE
     // Moved likewise in the frame before, so that motion vectors leave wind out.
     out.local_position = local + local_from_world(in.instance_index) * moved;

@@ -13,10 +13,11 @@ fn vertex(corner: Corner) -> Varying {
 
 fn is_seen(in: Varying) -> bool {
 #ifdef CROWN_LIGHT_VIEW
-    return is_there(in.uv, in.grid, in.lot, slice_color(in).a);
+    let grid = in.grid;
 #else
-    return is_there(in.uv, cells(footprint(in.uv)), in.lot, slice_color(in).a);
+    let grid = cells(footprint(in.uv));
 #endif
+    return is_there(in.uv, grid, in.lot, slice_color(in).a);
 }
 
 #ifdef PREPASS_FRAGMENT

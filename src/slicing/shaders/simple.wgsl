@@ -7,6 +7,7 @@
     mesh_view_bindings::{lights, view},
     mesh_view_types::DIRECTIONAL_LIGHT_FLAGS_SHADOWS_ENABLED_BIT,
     shadow_sampling::sample_shadow_map_hardware,
+    utils::interleaved_gradient_noise,
 }
 #import bevy_render::maths::PI
 #import bevy_verdure::slicing::look::Facing
@@ -20,10 +21,9 @@ const GLOSS_AROUND: f32 = 0.013;
 // Gloss under a directional light, as if that were scattered evenly.
 const GLOSS: f32 = 0.018;
 
-// A number from 0 to 1 for a pixel: J. Jimenez, Next Generation Post Processing in Call of Duty (SIGGRAPH 2014). Layers
-// that lie one behind the other have other ones.
+// A number from 0 to 1 for a pixel. Layers that lie one behind the other have other ones.
 fn noise(in: Varying) -> f32 {
-    return fract(52.9829189 * fract(dot(in.position.xy, vec2(0.06711056, 0.00583715))) + 0.618034 * f32(in.layer));
+    return fract(interleaved_gradient_noise(in.position.xy, 0u) + 0.618034 * f32(in.layer));
 }
 
 // A place in a cascade's shadow map: texture coordinates and depth.

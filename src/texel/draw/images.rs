@@ -1,15 +1,12 @@
 //! A volume's slices as texture arrays: one of colours and one of normals for each direction, in which the sets of 1, 2, 4
 //! and so on slices follow one another, so that slice k of N is layer N − 1 + k.
 
-use bevy::asset::RenderAssetUsages;
-use bevy::image::{Image, ImageAddressMode, ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
-use bevy::prelude::default;
-use bevy::render::render_resource::{
-    Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
-};
+use bevy::image::{Image, ImageAddressMode, ImageSamplerDescriptor};
+use bevy::render::render_resource::{Extent3d, TextureFormat};
 
 use super::super::axis::SliceAxis;
 use super::super::slice_sets::{SliceLevel, SliceSet, SliceSets};
+use crate::texture_array::texture_array;
 
 /// The images of colours and of normals for u, v and w.
 pub(crate) fn slice_images(sets: &SliceSets) -> [[Image; 2]; 3] {
@@ -39,34 +36,20 @@ fn image(
             }
         }
     }
-    let mut image = Image::new_uninit(
-        Extent3d {
-            width,
-            height,
-            depth_or_array_layers: layers,
-        },
-        TextureDimension::D2,
-        format,
-        RenderAssetUsages::RENDER_WORLD,
-    );
-    image.texture_descriptor.mip_level_count = sets[0].levels.len() as u32;
-    image.texture_view_descriptor = Some(TextureViewDescriptor {
-        dimension: Some(TextureViewDimension::D2Array),
-        ..default()
-    });
-    image.data = Some(data);
-    // Rows of upright slices are heights, which end.
-    let rows = match sets[0].axis {
-        SliceAxis::W => ImageAddressMode::Repeat,
-        SliceAxis::U | SliceAxis::V => ImageAddressMode::ClampToEdge,
+    let size = Extent3d {
+        width,
+        height,
+        depth_or_array_layers: layers,
     };
-    image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
+    let sampler = ImageSamplerDescriptor {
         address_mode_u: ImageAddressMode::Repeat,
-        address_mode_v: rows,
-        mag_filter: ImageFilterMode::Linear,
-        min_filter: ImageFilterMode::Linear,
-        mipmap_filter: ImageFilterMode::Linear,
-        ..default()
-    });
-    image
+        // Rows of upright slices are heights, which end.
+        address_mode_v: match sets[0].axis {
+            SliceAxis::W => ImageAddressMode::Repeat,
+            SliceAxis::U | SliceAxis::V => ImageAddressMode::ClampToEdge,
+        },
+        ..ImageSamplerDescriptor::linear()
+    };
+    let mip_levels = sets[0].levels.len() as u32;
+    texture_array(size, mip_levels, format, data, sampler)
 }

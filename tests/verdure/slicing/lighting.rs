@@ -21,7 +21,7 @@ fn picture(studio: &mut Studio, crown: Entity, lighting: CrownLighting) -> Pixel
 fn simple_light_looks_like_full_light() {
     let (mut studio, crown) = studio(UNLIT);
     sun(&mut studio);
-    // Ambient light alone, and with fog, are other terms of the same sum.
+    // With the sun alone, and with ambient light besides.
     for brightness in [0.0, 600.0] {
         studio.world().insert_resource(GlobalAmbientLight {
             brightness,
@@ -48,7 +48,7 @@ fn simple_light_looks_like_full_light() {
 }
 
 #[test]
-fn lamps_and_environment_maps_call_for_full_light_while_they_are_there() {
+fn lamps_call_for_full_light_while_they_are_there() {
     let (mut studio, crown) = studio(UNLIT);
     sun(&mut studio);
     let before = picture(&mut studio, crown, CrownLighting::Simple);
@@ -75,11 +75,10 @@ fn lamps_and_environment_maps_call_for_full_light_while_they_are_there() {
     for lamp in lamps {
         let lamp = lamp(studio.world());
         studio.headless.step();
-        let simple = picture(&mut studio, crown, CrownLighting::Simple);
         let full = picture(&mut studio, crown, CrownLighting::Full);
+        let simple = picture(&mut studio, crown, CrownLighting::Simple);
         assert_eq!(simple.rgb_bytes(), full.rgb_bytes());
         assert!(mean(&simple, 1) > mean(&before, 1) + 2.0, "the lamp lights");
-        picture(&mut studio, crown, CrownLighting::Simple);
         studio.world().despawn(lamp);
         studio.headless.step();
         let after = picture(&mut studio, crown, CrownLighting::Simple);

@@ -2,6 +2,7 @@
 
 // The fragment stage of all passes: what a slice looks like at a place.
 
+#import bevy_pbr::utils::interleaved_gradient_noise
 #import bevy_verdure::texel::place::Varying
 #import bevy_verdure::texel::types::{color_texture, normal_texture, slice_sampler}
 
@@ -14,16 +15,11 @@ fn slice_color(in: Varying) -> vec3<f32> {
     return textureSample(color_texture, slice_sampler, in.uv, in.layer).rgb;
 }
 
-// A number from 0 to 1 for each pixel of the screen, as evenly spread as may be (J. Jimenez, Next Generation
-// Post-Processing in Call of Duty, 2014).
-fn lot(position: vec4<f32>) -> f32 {
-    return fract(52.9829189 * fract(dot(position.xy, vec2(0.06711056, 0.00583715))));
-}
-
 // Which samples of a pixel are there, where alpha goes through one half. Pixels of slices are there or not; what
 // filtering puts between is where their outline runs.
 fn covered_samples(in: Varying, alpha: f32) -> u32 {
-    let mine = lot(in.position);
+    // A number from 0 to 1 for each pixel of the screen, as evenly spread as may be.
+    let mine = interleaved_gradient_noise(in.position.xy, 0u);
     let is_mine = mine >= in.lots.x && mine < in.lots.y;
 #ifdef TEXEL_FOUR_SAMPLES
     // The standard places of four samples, in pixels from the centre.
