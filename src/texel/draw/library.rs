@@ -137,7 +137,6 @@ impl TexelLibrary {
             return Drawn::NotYet;
         };
         let measure = volume.measure;
-        let images = volume.images.clone();
         if !self.geometries.contains_key(&keys.geometry) {
             let Some(mesh) = assets.meshes.get(keys.geometry.mesh) else {
                 return Drawn::NotYet;
@@ -156,7 +155,9 @@ impl TexelLibrary {
         let Some(Some(geometry)) = self.geometries.get(&keys.geometry) else {
             return Drawn::Nothing;
         };
+        let volumes = &self.volumes;
         let materials = self.materials.entry(keys).or_insert_with(|| {
+            let images = &volumes[&keys.geometry.volume].images;
             let measure = VolumeMeasure {
                 most: geometry.most,
                 ..measure
@@ -205,10 +206,10 @@ impl TexelLibrary {
     /// Tells all materials of a change of wind.
     pub(crate) fn follow_wind(&self, wind: Vec3, materials: &mut Assets<TexelMaterial>) {
         for handle in self.materials.values().flatten() {
-            let is_stiff = materials
-                .get(handle)
-                .is_none_or(|known| known.texels.wind.w == 0.0);
-            if !is_stiff && let Some(mut material) = materials.get_mut(handle) {
+            // Stiff ones are not written to, and so not uploaded.
+            if let Some(mut material) = materials.get_mut(handle)
+                && material.texels.wind.w != 0.0
+            {
                 let flexibility = material.texels.wind.w;
                 material.texels.wind = wind.extend(flexibility);
             }
