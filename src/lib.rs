@@ -8,7 +8,7 @@
 //! | [`frusta`] | solid parts: a cone round each segment, ray cast per pixel | `skeleton` |
 //! | [`slicing`] | sparse parts: crowns of twigs and leaves, baked into blended slices | `wind` |
 //! | [`texel`] | repeated cover: a volume in slices, mapped on a surface | `wind` |
-//! | [`wind`] | the wind of a scene, in which crowns sway | |
+//! | [`wind`] | the wind of a scene, in which crowns and texels sway | |
 //! | [`plants`] | skeletons grown from a seed: palms, pines, cacti, and scenes of them | `skeleton` |
 //! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
 //!

@@ -1,4 +1,4 @@
-//! The wind of a scene. Crowns ([`slicing`](crate::slicing)) sway in it; frusta do not yet.
+//! The wind of a scene. Crowns ([`slicing`](crate::slicing)) and texels ([`texel`](crate::texel)) sway in it; frusta do not yet.
 //!
 //! A stem that bends like a cantilever under an even load moves by about the square of the height. Gusts travel with the
 //! wind, so that neighbours sway one after the other. `wind.wgsl` has the same functions by the same names.
@@ -11,7 +11,7 @@ const SWAY: f32 = 2.5;
 /// Length of gusts along the wind, in metres, over 2π.
 const GUST_LENGTH: f32 = 4.0;
 
-/// The wind that the crowns of a scene sway in. None by default. Change it at any time.
+/// The wind that the crowns and texels of a scene sway in. None by default. Change it at any time.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Reflect)]
 #[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Wind {

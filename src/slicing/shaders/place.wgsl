@@ -102,7 +102,7 @@ fn metre(instance_index: u32) -> f32 {
 
 // Pixels of the view for a metre: one metre away, or anywhere in an orthographic view.
 fn pixels_per_metre() -> f32 {
-    return 0.5 * view.viewport.w * abs(view.clip_from_view[1].y);
+    return 0.5 * view.main_pass_viewport.w * abs(view.clip_from_view[1].y);
 }
 
 // How many radii away a crown would be as small as it is here, on the screen that levels of detail are made for.

@@ -2,9 +2,10 @@
 
 use bevy::asset::{Assets, Handle};
 use bevy::camera::primitives::Aabb;
-use bevy::log::warn;
+use bevy::log::{error, warn};
 use bevy::math::{UVec3, Vec3};
 use bevy::mesh::Mesh;
+use bevy::prelude::default;
 use bevy::render::storage::ShaderBuffer;
 
 use super::super::axis::SliceAxis;
@@ -22,8 +23,6 @@ pub(crate) struct Geometry {
     pub bounds: Aabb,
     /// The most slices a texel that there are slots for.
     pub most: UVec3,
-    /// Slots of each facet across u, v and w.
-    counts: [Vec<usize>; 3],
     records: Vec<FacetRecord>,
 }
 
@@ -44,24 +43,23 @@ pub(crate) fn facets(
 }
 
 impl Geometry {
-    /// Of facets, for volumes of which there are so many slices.
+    /// Of facets, for volumes of which there are so many slices. None, and a message, if they need too many slots.
     pub(crate) fn new(
         found: &SurfaceFacets,
         most: UVec3,
         meshes: &mut Assets<Mesh>,
         buffers: &mut Assets<ShaderBuffer>,
-    ) -> Self {
+    ) -> Option<Self> {
         let facets = &found.facets;
-        let (counts, most) = count_slots(facets, most);
+        let (counts, most) = count_slots(facets, most)?;
         let records = records(found);
-        Self {
+        Some(Self {
             slots: add_slots(&counts, meshes),
             facets: buffers.add(facet_buffer(&records)),
             bounds: bounds(facets),
             most,
-            counts,
             records,
-        }
+        })
     }
 
     /// Follows facets that may have changed. Materials must be made anew if this tells so.
@@ -77,8 +75,10 @@ impl Geometry {
             return false;
         }
         self.bounds = bounds(facets);
-        let (counts, most) = count_slots(facets, most);
-        if counts == self.counts {
+        // Slots depend on texture coordinates alone.
+        let uvs =
+            |records: &[FacetRecord]| records.iter().map(FacetRecord::uvs).collect::<Vec<_>>();
+        if uvs(&records) == uvs(&self.records) {
             // The buffer is written, and stays where it is.
             if let Some(mut buffer) = buffers.get_mut(&self.facets) {
                 *buffer = facet_buffer(&records);
@@ -86,9 +86,12 @@ impl Geometry {
             self.records = records;
             return false;
         }
+        let Some((counts, most)) = count_slots(facets, most) else {
+            return true;
+        };
         self.slots = add_slots(&counts, meshes);
         self.facets = buffers.add(facet_buffer(&records));
-        (self.records, self.counts, self.most) = (records, counts, most);
+        (self.records, self.most) = (records, most);
         true
     }
 }
@@ -105,22 +108,33 @@ fn add_slots(counts: &[Vec<usize>; 3], meshes: &mut Assets<Mesh>) -> [Handle<Mes
         .map(|counts| meshes.add(slot_mesh(counts.iter().copied())))
 }
 
-/// Slots for each facet, and the most slices a texel; fewer than `most` if there were too many slots.
-fn count_slots(facets: &[Facet], most: UVec3) -> ([Vec<usize>; 3], UVec3) {
+/// Slots for each facet, and the most slices a texel; fewer than `most` if there were too many slots. None, and a message,
+/// if one slice a texel is too many already.
+fn count_slots(facets: &[Facet], most: UVec3) -> Option<([Vec<usize>; 3], UVec3)> {
     let mut fewer = most;
-    let counts = SliceAxis::ALL.map(|axis| {
+    let mut counts: [Vec<usize>; 3] = default();
+    for (axis, counts) in SliceAxis::ALL.into_iter().zip(&mut counts) {
+        let most = &mut fewer[axis.index()];
         loop {
-            let most = &mut fewer[axis.index()];
-            let counts: Vec<usize> = facets
-                .iter()
-                .map(|facet| slots_of(facet, axis, *most))
-                .collect();
-            if *most == 1 || counts.iter().sum::<usize>() <= MAX_SLOTS {
-                return counts;
+            counts.clear();
+            counts.extend(facets.iter().map(|facet| slots_of(facet, axis, *most)));
+            let slots = counts.iter().fold(0usize, |sum, n| sum.saturating_add(*n));
+            // One slot a facet is what any mesh takes.
+            if slots <= MAX_SLOTS.max(facets.len()) {
+                break;
+            }
+            if *most == 1 {
+                error!(
+                    "a surface of {} facets carries no texels: with one slice each across an axis there would be {slots}, \
+                     more than {MAX_SLOTS}. Its texture coordinates go over too many texels: scale them down, or \
+                     subdivide the mesh into several",
+                    facets.len()
+                );
+                return None;
             }
             *most /= 2;
         }
-    });
+    }
     if fewer != most {
         warn!(
             "a surface of {} facets would need more than {MAX_SLOTS} slices across an axis: a texel gets {fewer} instead \
@@ -128,7 +142,7 @@ fn count_slots(facets: &[Facet], most: UVec3) -> ([Vec<usize>; 3], UVec3) {
             facets.len()
         );
     }
-    (counts, fewer)
+    Some((counts, fewer))
 }
 
 fn bounds(facets: &[Facet]) -> Aabb {
@@ -141,4 +155,29 @@ fn bounds(facets: &[Facet]) -> Aabb {
             (min.min(corner), max.max(corner))
         });
     Aabb::from_min_max(min, max)
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy::math::Vec2;
+
+    use super::*;
+
+    #[test]
+    fn texture_coordinates_over_too_many_texels_are_refused_and_many_are_met_by_fewer_slices() {
+        let facet = |across: f32| Facet {
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
+            heights: [Vec3::Z; 3],
+            uvs: [Vec2::ZERO, Vec2::X * across, Vec2::Y],
+        };
+        let most = UVec3::splat(256);
+        let (_, all) = count_slots(&[facet(1.0)], most).expect("few texels have slots");
+        assert_eq!(all, most);
+        let (counts, fewer) = count_slots(&[facet(2e4)], most).expect("fewer slices have slots");
+        assert!(fewer.x < 256 && fewer.x > 1, "{fewer}");
+        assert!(counts[0].iter().sum::<usize>() <= MAX_SLOTS);
+        for across in [1e8, 1e30] {
+            assert!(count_slots(&[facet(across)], most).is_none(), "{across}");
+        }
+    }
 }

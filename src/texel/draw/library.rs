@@ -133,6 +133,12 @@ impl TexelLibrary {
         wind: Vec3,
         assets: &mut TexelAssets,
     ) -> Drawn<'_> {
+        // A volume is cut into slices for what there is to draw.
+        match self.geometries.get(&keys.geometry) {
+            Some(None) => return Drawn::Nothing,
+            None if !assets.meshes.contains(keys.geometry.mesh) => return Drawn::NotYet,
+            _ => {}
+        }
         let Some(volume) = self.volume(keys.geometry.volume, most_layers, assets) else {
             return Drawn::NotYet;
         };
@@ -142,7 +148,7 @@ impl TexelLibrary {
                 return Drawn::NotYet;
             };
             let found = told_facets(keys.geometry.mesh, mesh, surface.thickness, heights);
-            let geometry = found.map(|facets| {
+            let geometry = found.and_then(|facets| {
                 Geometry::new(
                     &facets,
                     measure.most,
@@ -209,6 +215,7 @@ impl TexelLibrary {
             // Stiff ones are not written to, and so not uploaded.
             if let Some(mut material) = materials.get_mut(handle)
                 && material.texels.wind.w != 0.0
+                && material.texels.wind.truncate() != wind
             {
                 let flexibility = material.texels.wind.w;
                 material.texels.wind = wind.extend(flexibility);
@@ -216,9 +223,14 @@ impl TexelLibrary {
         }
     }
 
-    /// Follows a mesh that was edited.
-    pub(crate) fn follow_mesh(&mut self, id: AssetId<Mesh>, assets: &mut TexelAssets) {
-        let of_mesh = |key: &&GeometryKey| key.mesh == id;
+    /// Follows a mesh that was edited, on all surfaces but those that are live.
+    pub(crate) fn follow_mesh(
+        &mut self,
+        id: AssetId<Mesh>,
+        is_live: impl Fn(Entity) -> bool,
+        assets: &mut TexelAssets,
+    ) {
+        let of_mesh = |key: &&GeometryKey| key.mesh == id && !key.own.is_some_and(&is_live);
         let keys: Vec<GeometryKey> = self.geometries.keys().filter(of_mesh).copied().collect();
         for key in keys {
             if key.own.is_none() {
@@ -250,6 +262,9 @@ impl TexelLibrary {
                 let (meshes, buffers) = (&mut assets.meshes, &mut assets.buffers);
                 geometry.renew(&found, volume.measure.most, meshes, buffers)
             }
+            // What is still wrong was told when it went wrong.
+            (None, _, None) => return,
+            (None, _, Some(found)) if found.facets.is_empty() => return,
             _ => {
                 // It is looked at anew, and told if it is wrong.
                 self.geometries.remove(&key);
@@ -259,6 +274,13 @@ impl TexelLibrary {
         if is_stale {
             self.materials.retain(|keys, _| keys.geometry != key);
         }
+    }
+
+    /// Forgets what else was made for a surface of its own, as for the other volumes of a cycle.
+    pub(crate) fn forget_others(&mut self, key: GeometryKey) {
+        let is_other = |k: &GeometryKey| k.own.is_some() && k.own == key.own && *k != key;
+        self.geometries.retain(|k, _| !is_other(k));
+        self.materials.retain(|k, _| !is_other(&k.geometry));
     }
 
     /// Forgets everything, on a device that has taken a lost one's place and has nothing of what was there.

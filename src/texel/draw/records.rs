@@ -28,6 +28,11 @@ impl FacetRecord {
             normals: normals.map(|normal| normal.extend(0.0).to_array()),
         }
     }
+
+    /// Texture coordinates of the vertices.
+    pub(crate) fn uvs(&self) -> [[f32; 2]; 3] {
+        [0, 1, 2].map(|i| [self.positions[i][3], self.heights[i][3]])
+    }
 }
 
 /// The buffer of a surface's facets, of which there is at least one.

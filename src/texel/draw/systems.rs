@@ -15,8 +15,7 @@ use super::material::TexelMaterial;
 use crate::wind::Wind;
 
 /// Marks the children of a [`TexelSurface`] that its slices are drawn by, one for each axis. Made by the plugin; they
-/// follow their surface's
-/// [`RenderLayers`], [`NotShadowCaster`] and [`NotShadowReceiver`].
+/// follow their surface's [`RenderLayers`], [`NotShadowCaster`] and [`NotShadowReceiver`].
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
 pub struct TexelSlices;
@@ -77,10 +76,14 @@ pub(crate) fn attach(
     for (entity, surface, settings, mesh, heights, is_live, drawn) in &surfaces {
         let own = (heights.is_some() || is_live).then_some(entity);
         let keys = TexelKeys::new(surface, mesh.id(), settings, own);
-        let is_moved = is_live || heights.as_ref().is_some_and(|heights| heights.is_changed());
+        let is_stroked = heights.as_ref().is_some_and(|heights| heights.is_changed());
+        let is_moved = is_live || is_stroked;
         let heights = heights.as_deref();
         if is_moved {
             library.renew(keys.geometry, heights, &mut assets);
+        }
+        if is_stroked {
+            library.forget_others(keys.geometry);
         }
         let found = library.drawn(keys, surface, settings, heights, layers, wind, &mut assets);
         let (geometry, materials) = match found {
@@ -130,7 +133,7 @@ pub(crate) fn attach(
 pub(crate) fn follow_assets(
     mut edited_meshes: MessageReader<AssetEvent<Mesh>>,
     mut edited_volumes: MessageReader<AssetEvent<TexelVolume>>,
-    live: Query<&Mesh3d, With<LiveTexels>>,
+    live: Query<(), With<LiveTexels>>,
     mut library: ResMut<TexelLibrary>,
     mut assets: TexelAssets,
 ) {
@@ -139,13 +142,13 @@ pub(crate) fn follow_assets(
             library.forget_volume(*id);
         }
     }
-    // Live meshes are followed anyway.
-    let mut seen: HashSet<_> = live.iter().map(|mesh| mesh.id()).collect();
+    let mut seen = HashSet::<AssetId<Mesh>>::default();
     for event in edited_meshes.read() {
         if let AssetEvent::Modified { id } = event
             && seen.insert(*id)
         {
-            library.follow_mesh(*id, &mut assets);
+            // Live surfaces are followed anyway, but not those that share their mesh.
+            library.follow_mesh(*id, |owner| live.contains(owner), &mut assets);
         }
     }
 }
@@ -206,9 +209,9 @@ pub(crate) fn follow_surfaces(
     }
 }
 
-/// Stops drawing texels on an entity that is no surface any more.
+/// Stops drawing texels on an entity that is no surface any more, or has no mesh.
 pub(crate) fn uproot(
-    removed: On<Remove, TexelSurface>,
+    removed: On<Remove, (TexelSurface, Mesh3d)>,
     drawn: Query<&TexelDrawn>,
     mut commands: Commands,
 ) {
@@ -231,14 +234,19 @@ pub(crate) fn cycle(time: Res<Time>, mut surfaces: Query<(&TexelCycle, &mut Texe
     }
 }
 
+/// What tells that a surface may have come to use other things.
+type InOtherUse = Or<(Changed<TexelDrawn>, Changed<TexelCycle>)>;
+
 /// Forgets what no surface uses any more.
 pub(crate) fn forget(
     mut removed: RemovedComponents<TexelDrawn>,
     mut library: ResMut<TexelLibrary>,
-    changed: Query<(), Changed<TexelDrawn>>,
+    mut uncycled: RemovedComponents<TexelCycle>,
+    changed: Query<(), InOtherUse>,
     drawn: Query<(&TexelDrawn, Option<&TexelCycle>)>,
 ) {
-    if removed.read().count() > 0 || !changed.is_empty() {
+    let removed = removed.read().count() + uncycled.read().count();
+    if removed > 0 || !changed.is_empty() {
         let mut used = HashSet::default();
         for (drawn, cycle) in &drawn {
             used.insert(drawn.keys);

@@ -219,7 +219,7 @@ fn surfaces_and_height_vectors_that_move_are_followed() {
         &picture,
         &square.facets(&place),
         &shot(eye),
-        &unlit(),
+        &fine(),
     );
     let leaning = Square {
         heights: [Vec3::new(-0.3, 0.9, 0.2); 4],
@@ -237,7 +237,7 @@ fn surfaces_and_height_vectors_that_move_are_followed() {
         &picture,
         &leaning.facets(&place),
         &shot(eye),
-        &unlit(),
+        &fine(),
     );
 }
 
@@ -275,6 +275,33 @@ fn height_vectors_of_a_surface_and_live_meshes_are_followed() {
     let picture = studio.photograph(&shot(eye), BACKGROUND);
     let facets = raised.facets(&Transform::IDENTITY);
     compare("raised", &picture, &facets, &shot(eye), &fine());
+}
+
+#[test]
+fn a_surface_that_shares_its_mesh_with_a_live_one_is_followed_too() {
+    let mut studio = Studio::default();
+    let square = Square::default();
+    let surface = cover(&mut studio, &square, Transform::IDENTITY, fine());
+    let world = studio.world();
+    let (mesh, texels) = (
+        world.get::<Mesh3d>(surface).unwrap().clone(),
+        world.get::<TexelSurface>(surface).unwrap().clone(),
+    );
+    let aside = Transform::from_xyz(100.0, 0.0, 0.0);
+    world.spawn((mesh.clone(), texels, fine(), aside, LiveTexels));
+    let eye = EYES[1];
+    studio.photograph(&shot(eye), BACKGROUND);
+    let raised = Square {
+        positions: square.positions.map(|at| at + Vec3::new(0.0, 0.2, 0.0)),
+        ..square
+    };
+    let mut meshes = studio.world().resource_mut::<Assets<Mesh>>();
+    *meshes.get_mut(&mesh.0).unwrap() = raised.mesh();
+    // Edits are told of in the next frame.
+    studio.headless.step();
+    let picture = studio.photograph(&shot(eye), BACKGROUND);
+    let facets = raised.facets(&Transform::IDENTITY);
+    compare("shared", &picture, &facets, &shot(eye), &fine());
 }
 
 #[test]

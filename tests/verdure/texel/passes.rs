@@ -161,11 +161,16 @@ fn slices_are_where_their_surface_is_seen_and_go_with_it() {
         .entity_mut(surface)
         .insert(Visibility::Hidden);
     assert_eq!(seen(&mut studio), 0);
+    let mesh = studio.world().get::<Mesh3d>(surface).unwrap().clone();
     studio
         .world()
         .entity_mut(surface)
         .insert(Visibility::Visible)
-        .remove::<TexelSurface>();
+        .remove::<Mesh3d>();
+    assert_eq!(seen(&mut studio), 0, "what has no mesh carries no texels");
+    studio.world().entity_mut(surface).insert(mesh);
+    assert!(seen(&mut studio) > 500);
+    studio.world().entity_mut(surface).remove::<TexelSurface>();
     assert_eq!(seen(&mut studio), 0);
     let world = studio.world();
     let left = world.query::<&TexelSlices>().iter(world).count();

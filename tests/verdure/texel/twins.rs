@@ -12,6 +12,7 @@ use bevy::render::render_resource::{
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy_verdure::lab::Headless;
 use bevy_verdure::plants::Dice;
+use bevy_verdure::texel::criteria::{finer_share, second_share};
 use bevy_verdure::texel::facet::{Facet, slice_line, slice_position, slice_range};
 use bevy_verdure::texel::{
     Choice, DirectionRule, SliceAxis, TexelQuality, TexelView, Thickness, VolumeMeasure, choose,
@@ -59,6 +60,10 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
         results[i][5u + k] = first[k];
         results[i][8u + k] = last[k];
     }
+    // Within and beyond where things fade.
+    let share = 0.7 + 0.35 * fract(cases[i][40]);
+    results[i][11] = finer_share(f32(count) * share, choice.exponent, 128u);
+    results[i][12] = second_share(share * 3.0, 3.0);
 }
 ";
 
@@ -278,6 +283,15 @@ fn shaders_choose_and_cut_as_rust_does() {
             assert!(near.contains(&chosen), "{case:?}: {chosen:?}, not {near:?}");
         }
         let count = 1 << found[1] as u32;
+        let share = 0.7 + 0.35 * case.view.pixels.fract();
+        let fades = [
+            finer_share(count as f32 * share, found[1] as u32, 128),
+            second_share(share * 3.0, 3.0),
+        ];
+        for (fade, found) in fades.iter().zip(&found[11..]) {
+            // What rounds, at the scale of the fade.
+            assert!((fade - found).abs() < 1e-5, "{share}: {found}, not {fade}");
+        }
         let range = slice_range(case.facet.uvs, axis, count);
         assert_eq!(
             [found[3] as i32, found[4] as i32],

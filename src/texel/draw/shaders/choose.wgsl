@@ -32,7 +32,6 @@ struct TexelQuality {
 }
 
 struct Choice {
-    drawn: bool,
     axis: u32,
     exponent: u32,
     along: bool,
@@ -47,8 +46,6 @@ struct Choice {
 struct FacetInView {
     // Whether any of it may be seen.
     seen: bool,
-    // Unit normals of slices.
-    normals: mat3x3<f32>,
     c: vec3<f32>,
     e: vec3<f32>,
     // (1/c² − 1)·h².
@@ -78,7 +75,6 @@ fn look_at(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: Texel
     let across_u = normal_and_length(frame.edges[0], frame.edges[1], frame.edges[2]);
     let across_v = normal_and_length(frame.edges[1], frame.edges[0], frame.edges[2]);
     let across_w = normal_and_length(frame.edges[2], frame.edges[0], frame.edges[1]);
-    seen.normals = mat3x3(across_u.normal, across_v.normal, across_w.normal);
     seen.c = vec3(dot(across_u.normal, direction), dot(across_v.normal, direction), dot(across_w.normal, direction));
     let l = vec3(across_u.length, across_v.length, across_w.length);
     let h = l / vec3<f32>(measure.most);
@@ -136,7 +132,7 @@ fn choose_count(
     let d = quality.depth * e;
     // Beyond e there are gaps, and no inside.
     let inside = min(needed.x / f32(1u << exponent) * d, e);
-    return Choice(true, axis, exponent, c > 0.0, finer, inside, d);
+    return Choice(axis, exponent, c > 0.0, finer, inside, d);
 }
 
 fn choose(facet: Facet, measure: VolumeMeasure, view: TexelView, quality: TexelQuality) -> Choice {

@@ -98,7 +98,7 @@ fn texel_view() -> TexelView {
         vec3(0.0),
         -view.world_from_view[2].xyz,
         is_orthographic(),
-        0.5 * abs(view.clip_from_view[1].y) * view.viewport.w,
+        0.5 * abs(view.clip_from_view[1].y) * view.main_pass_viewport.w,
         half_spaces,
     );
 }
