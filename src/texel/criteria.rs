@@ -25,7 +25,11 @@ pub fn direction_cost(c: f32, h: f32) -> f32 {
 
 /// The direction with the smallest cost; the later one of equals, so that the slices parallel to the surface win.
 pub fn choose_direction(c: [f32; 3], h: [f32; 3]) -> usize {
-    let cost = [0, 1, 2].map(|i| direction_cost(c[i], h[i]));
+    cheapest([0, 1, 2].map(|i| direction_cost(c[i], h[i])))
+}
+
+/// The smallest of three costs; the later one of equals.
+pub fn cheapest(cost: [f32; 3]) -> usize {
     let mut best = 2;
     for i in [1, 0] {
         if cost[i] < cost[best] {
@@ -85,11 +89,30 @@ pub fn finer_share(slices: f32, exponent: u32, most: u32) -> f32 {
 /// The share of the second best direction, 0 to ½, given the costs of the best and of the second: ½ where both are alike, so
 /// that nothing pops when they change places.
 pub fn second_share(best: f32, second: f32) -> f32 {
-    if second <= 0.0 {
+    // Both may be zero, or infinite.
+    if best == second {
         return 0.5;
     }
     let alike = best / second;
     0.5 * ((alike - (1.0 - FADE)) / FADE).clamp(0.0, 1.0)
+}
+
+/// The lots, from the first to the second of 0 to 1, that each direction gets of a view's pixels: all of them if it is the
+/// best by far, none if it is not, and a share where the second best is nearly as good.
+pub fn lots_of_directions(cost: [f32; 3]) -> [[f32; 2]; 3] {
+    let best = cheapest(cost);
+    let mut others = cost;
+    others[best] = f32::MAX;
+    let second = cheapest(others);
+    let mut lots = [[0.0; 2]; 3];
+    let share = second_share(cost[best], cost[second]);
+    // The direction of the lower index gets the lower lots, so that both share all of them.
+    if best < second {
+        (lots[best], lots[second]) = ([0.0, 1.0 - share], [1.0 - share, 1.0]);
+    } else {
+        (lots[second], lots[best]) = ([0.0, share], [share, 1.0]);
+    }
+    lots
 }
 
 /// How many slices to draw: as many as either criterion asks for, the one that is content with fewer, rounded up to a
@@ -207,6 +230,32 @@ mod tests {
         assert_eq!(second_share(0.0, 0.0), 0.5);
         assert_eq!(second_share(1.0 - FADE, 1.0), 0.0);
         assert_eq!(second_share(0.1, f32::INFINITY), 0.0);
+        assert_eq!(second_share(f32::INFINITY, f32::INFINITY), 0.5);
+    }
+
+    #[test]
+    fn directions_share_all_lots() {
+        let cases = [
+            ([1.0, 9.0, 9.0], [[0.0, 1.0], [0.0, 0.0], [1.0, 1.0]]),
+            ([9.0, 1.0, 1.0], [[0.0, 0.0], [0.0, 0.5], [0.5, 1.0]]),
+            ([0.9, 9.0, 1.0], [[0.0, 0.7], [0.0, 0.0], [0.7, 1.0]]),
+            ([1.0, 9.0, 0.9], [[0.0, 0.3], [0.0, 0.0], [0.3, 1.0]]),
+        ];
+        for (cost, expected) in cases {
+            let lots = lots_of_directions(cost);
+            for (lots, expected) in lots.as_flattened().iter().zip(expected.as_flattened()) {
+                assert!((lots - expected).abs() < 1e-6, "{cost:?}: {lots}");
+            }
+        }
+        let infinite = lots_of_directions([f32::INFINITY; 3]);
+        assert_eq!(
+            infinite
+                .as_flattened()
+                .iter()
+                .filter(|lot| lot.is_nan())
+                .count(),
+            0
+        );
     }
 
     #[test]

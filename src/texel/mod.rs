@@ -18,7 +18,7 @@
 //! | [`criteria`] | how many slices, and which? The formulas (§4.1 to §4.3) |
 //! | [`facet`] | one triangle of the surface, the prism on it, and where slices cut it (§2.1, §4.2) |
 //! | `choose` | direction and number for each facet of a view |
-//! | `draw` | what the GPU draws: components, slots, shaders (§2.2, §4, §5) |
+//! | `draw` | what the GPU draws: components, lists of slices, shaders (§2.2, §4, §5) |
 //! | `bake` | light in the colours, as the paper has it, for comparison |
 //! | [`mod@file`] | `*.texel.ron` and its images |
 //!
@@ -60,10 +60,11 @@ pub use asset::{TexelVolume, TexelVolumeLoader, TexelVolumePlugin};
 pub use axis::SliceAxis;
 pub use bake::BakedLight;
 pub use choose::{
-    Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose, choose_all,
+    AxisSlices, Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose, choose_all,
+    choose_fading,
 };
 pub use draw::{
-    ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, MAX_SLOTS, TexelCycle, TexelHeights, TexelMaterial,
+    ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, MAX_SLICES, TexelCycle, TexelHeights, TexelMaterial,
     TexelPlugin, TexelSettings, TexelSlices, TexelSurface, TexelSurfaceError,
 };
 pub use error::TexelError;

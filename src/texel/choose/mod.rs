@@ -5,8 +5,8 @@ use bevy::reflect::{Reflect, std_traits::ReflectDefault};
 
 use super::axis::SliceAxis;
 use super::criteria::{
-    choose_direction, count_exponent, depth_limit, sin_view_angle, slices_for_depth,
-    slices_for_pixels, tan_view_angle,
+    cheapest, count_exponent, depth_limit, direction_cost, finer_share, lots_of_directions,
+    sin_view_angle, slices_for_depth, slices_for_pixels, tan_view_angle,
 };
 use super::facet::{Facet, TexelFrame};
 use super::thickness::Thickness;
@@ -101,6 +101,25 @@ pub enum Choice {
     },
 }
 
+/// Slices across one axis of a facet, as a view shows them that fades what it shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisSlices {
+    /// The direction.
+    pub axis: SliceAxis,
+    /// The number of slices a texel is two to the power of this.
+    pub exponent: u32,
+    /// Whether the view goes to where the axis' coordinate grows, so that the first slices are the nearest.
+    pub along: bool,
+    /// The share, 0 to 1, of twice as many slices, which take the place of these.
+    pub finer: f32,
+    /// Which pixels of the view are those of this axis, if each has a lot from 0 to 1: from the first to the second.
+    pub lots: [f32; 2],
+    /// How deep inside of contours one may see, h·tan(a), at most e; a length in the space of the facet.
+    pub inside: f32,
+    /// d, which it should not exceed.
+    pub depth: f32,
+}
+
 /// Chooses for one facet: the direction at its centre, for deformations are taken to be small, and the number of slices by
 /// the corner of the prism that is seen at the largest angle from them. (The paper takes the angle at the centre too, which
 /// serves facets that are small on screen; right below the eye it would show a large one by a single slice.)
@@ -115,60 +134,133 @@ pub fn choose(
     if facet.check().is_err() {
         return Choice::LeftOut;
     }
-    let (centre, radius) = facet.bounds();
-    let inside = |plane: &Vec4| plane.truncate().dot(centre) + plane.w >= -radius;
-    if !view
-        .half_spaces
-        .iter()
-        .all(|plane| *plane == Vec4::ZERO || inside(plane))
-    {
+    let Some(seen) = FacetInView::new(facet, measure, view, quality) else {
         return Choice::LeftOut;
-    }
-    let middle = Vec3::splat(1.0 / 3.0);
-    let place = facet.point(middle, 0.5);
-    // From a point inside the prism every direction may be seen: up the height vectors as much as along the surface.
-    let to_place = view.direction.unwrap_or(place - view.eye);
-    let Some(direction) = to_place.try_normalize() else {
-        return Choice::Slices {
-            axis: SliceAxis::W,
-            exponent: measure.most.z.ilog2() as u8,
-            along: false,
-        };
     };
-    let frame = TexelFrame::new(facet, middle, 0.5);
-    let mut c = [0.0; 3];
-    let mut h = [0.0; 3];
-    let mut e = [0.0; 3];
-    let mut step = [0.0; 3];
-    for axis in SliceAxis::ALL {
-        let i = axis.index();
-        let (normal, length) = frame.normal_and_length(axis);
-        c[i] = normal.dot(direction);
-        h[i] = length / measure.most[i] as f32;
-        e[i] = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
-        step[i] = match quality.direction {
-            DirectionRule::StepAside => h[i],
-            DirectionRule::Quality => h[i] / e[i],
-        };
-    }
-    let i = choose_direction(c, step);
-    let axis = SliceAxis::ALL[i];
-    // The nearest that the facet can be, so that no part of it is drawn too coarsely. All of an orthographic view is
-    // at one.
-    let z = match view.direction {
-        Some(_) => 1.0,
-        None => view.eye.distance(centre) - radius,
-    };
-    let slices = slices_needed(facet, axis, measure, view, quality, c[i], z);
+    let axis = SliceAxis::ALL[cheapest(seen.cost)];
+    let slices = seen.count(facet, axis, measure, view, quality);
     Choice::Slices {
         axis,
-        exponent: count_exponent(slices, measure.most[i]) as u8,
-        along: c[i] > 0.0,
+        exponent: slices.exponent as u8,
+        along: slices.along,
     }
 }
 
-/// How many slices the corners of the prism need, of which each has a frame of its own where height vectors differ. `c` is
-/// the cosine at the centre; `z` is the least distance.
+/// Chooses for one facet that passes its [`check`](Facet::check), as [`choose`] does, with what fades in: along with the
+/// best direction the second best, where it is nearly as good. None if it is out of view.
+pub fn choose_fading(
+    facet: &Facet,
+    measure: &VolumeMeasure,
+    view: &TexelView,
+    quality: &TexelQuality,
+) -> [Option<AxisSlices>; 3] {
+    let Some(seen) = FacetInView::new(facet, measure, view, quality) else {
+        return [None; 3];
+    };
+    let lots = lots_of_directions(seen.cost);
+    SliceAxis::ALL.map(|axis| {
+        let lots = lots[axis.index()];
+        (lots[0] < lots[1]).then(|| AxisSlices {
+            lots,
+            ..seen.count(facet, axis, measure, view, quality)
+        })
+    })
+}
+
+/// A facet as a view sees it, along u, v and w.
+struct FacetInView {
+    /// Cosines of the angles between the view and the normals.
+    c: [f32; 3],
+    e: [f32; 3],
+    cost: [f32; 3],
+    /// The least distance of any part of it, so that none is drawn too coarsely; 1 of an orthographic view.
+    z: f32,
+}
+
+impl FacetInView {
+    /// None if it is out of view.
+    fn new(
+        facet: &Facet,
+        measure: &VolumeMeasure,
+        view: &TexelView,
+        quality: &TexelQuality,
+    ) -> Option<Self> {
+        let (centre, radius) = facet.bounds();
+        if !view.may_see(centre, radius) {
+            return None;
+        }
+        let middle = Vec3::splat(1.0 / 3.0);
+        let place = facet.point(middle, 0.5);
+        // From a point inside the prism every direction may be seen: all cost the same, and the last wins.
+        let to_place = view.direction.unwrap_or(place - view.eye);
+        let direction = to_place / to_place.length().max(LEAST_LENGTH);
+        let frame = TexelFrame::new(facet, middle, 0.5);
+        let (mut c, mut e, mut cost) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        for axis in SliceAxis::ALL {
+            let i = axis.index();
+            let (normal, length) = frame.normal_and_length(axis);
+            c[i] = normal.dot(direction);
+            e[i] = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
+            let h = length / measure.most[i] as f32;
+            let step = match quality.direction {
+                DirectionRule::StepAside => h,
+                DirectionRule::Quality => h / e[i],
+            };
+            cost[i] = direction_cost(c[i], step);
+        }
+        let z = match view.direction {
+            Some(_) => 1.0,
+            None => view.eye.distance(centre) - radius,
+        };
+        Some(Self { c, e, cost, z })
+    }
+
+    /// Slices across one axis, however good a direction it is; they get all lots.
+    fn count(
+        &self,
+        facet: &Facet,
+        axis: SliceAxis,
+        measure: &VolumeMeasure,
+        view: &TexelView,
+        quality: &TexelQuality,
+    ) -> AxisSlices {
+        let i = axis.index();
+        let most = measure.most[i];
+        let [for_depth, for_pixels] =
+            slices_needed(facet, axis, measure, view, quality, self.c[i], self.z);
+        // An eye in reach of the prism sees slices however far apart.
+        let slices = if self.z > 0.0 {
+            for_depth.min(for_pixels)
+        } else {
+            for_depth
+        };
+        let exponent = count_exponent(slices, most);
+        let depth = quality.depth * self.e[i];
+        AxisSlices {
+            axis,
+            exponent,
+            along: self.c[i] > 0.0,
+            finer: finer_share(slices, exponent, most),
+            lots: [0.0, 1.0],
+            // Beyond e there are gaps, and no inside.
+            inside: (for_depth / (1u32 << exponent) as f32 * depth).min(self.e[i]),
+            depth,
+        }
+    }
+}
+
+impl TexelView {
+    /// Whether anything of a sphere is in all half-spaces.
+    pub fn may_see(&self, centre: Vec3, radius: f32) -> bool {
+        let inside = |plane: &Vec4| plane.truncate().dot(centre) + plane.w >= -radius;
+        self.half_spaces
+            .iter()
+            .all(|plane| *plane == Vec4::ZERO || inside(plane))
+    }
+}
+
+/// How many slices the corners of the prism need for depth, and for pixels. Each has a frame of its own where height
+/// vectors differ. `c` is the cosine at the centre; `z` is the least distance.
 fn slices_needed(
     facet: &Facet,
     axis: SliceAxis,
@@ -177,7 +269,7 @@ fn slices_needed(
     quality: &TexelQuality,
     c: f32,
     z: f32,
-) -> f32 {
+) -> [f32; 2] {
     let (mut for_depth, mut for_pixels) = (0.0f32, 0.0f32);
     for w in [0.0, 1.0] {
         for (b, corner) in [Vec3::X, Vec3::Y, Vec3::Z]
@@ -199,12 +291,7 @@ fn slices_needed(
                 for_pixels.max(slices_for_pixels(l, sin_a, z, view.pixels, quality.pixels));
         }
     }
-    // An eye in reach of the prism sees slices however far apart.
-    if z > 0.0 {
-        for_depth.min(for_pixels)
-    } else {
-        for_depth
-    }
+    [for_depth, for_pixels]
 }
 
 /// In place of the length of a vector that has none.

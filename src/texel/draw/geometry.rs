@@ -1,27 +1,28 @@
-//! What surfaces of one mesh share: facets and slots.
+//! What surfaces of one mesh share: facets.
+
+use std::sync::Arc;
 
 use bevy::asset::{Assets, Handle};
 use bevy::camera::primitives::Aabb;
 use bevy::log::{error, warn};
 use bevy::math::{UVec3, Vec3};
 use bevy::mesh::Mesh;
-use bevy::prelude::default;
 use bevy::render::storage::ShaderBuffer;
 
 use super::super::axis::SliceAxis;
 use super::super::facet::{Facet, SurfaceFacets};
 use super::component::TexelHeights;
+use super::limit::{MAX_SLICES, most_on_facet};
 use super::records::{FacetRecord, facet_buffer};
-use super::slots::{MAX_SLOTS, slot_mesh, slots_of};
 use super::surface_mesh::{TexelSurfaceError, surface};
 
-/// The facets of a mesh, on the GPU.
+/// The facets of a mesh.
 pub(crate) struct Geometry {
-    /// Slots across u, v and w.
-    pub slots: [Handle<Mesh>; 3],
-    pub facets: Handle<ShaderBuffer>,
+    pub facets: Arc<[Facet]>,
+    /// The same on the GPU.
+    pub buffer: Handle<ShaderBuffer>,
     pub bounds: Aabb,
-    /// The most slices a texel that there are slots for.
+    /// The most slices a texel that may be shown.
     pub most: UVec3,
     records: Vec<FacetRecord>,
 }
@@ -43,20 +44,18 @@ pub(crate) fn facets(
 }
 
 impl Geometry {
-    /// Of facets, for volumes of which there are so many slices. None, and a message, if they need too many slots.
+    /// Of facets, for volumes of which there are so many slices. None, and a message, if they would show too many.
     pub(crate) fn new(
         found: &SurfaceFacets,
         most: UVec3,
-        meshes: &mut Assets<Mesh>,
         buffers: &mut Assets<ShaderBuffer>,
     ) -> Option<Self> {
-        let facets = &found.facets;
-        let (counts, most) = count_slots(facets, most)?;
+        let most = limit(&found.facets, most)?;
         let records = records(found);
         Some(Self {
-            slots: add_slots(&counts, meshes),
-            facets: buffers.add(facet_buffer(&records)),
-            bounds: bounds(facets),
+            facets: found.facets.as_slice().into(),
+            buffer: buffers.add(facet_buffer(&records)),
+            bounds: bounds(&found.facets),
             most,
             records,
         })
@@ -67,31 +66,31 @@ impl Geometry {
         &mut self,
         found: &SurfaceFacets,
         most: UVec3,
-        meshes: &mut Assets<Mesh>,
         buffers: &mut Assets<ShaderBuffer>,
     ) -> bool {
-        let (facets, records) = (&found.facets, records(found));
+        let records = records(found);
         if records == self.records {
             return false;
         }
-        self.bounds = bounds(facets);
-        // Slots depend on texture coordinates alone.
+        self.bounds = bounds(&found.facets);
+        self.facets = found.facets.as_slice().into();
         let uvs =
             |records: &[FacetRecord]| records.iter().map(FacetRecord::uvs).collect::<Vec<_>>();
-        if uvs(&records) == uvs(&self.records) {
-            // The buffer is written, and stays where it is.
-            if let Some(mut buffer) = buffers.get_mut(&self.facets) {
-                *buffer = facet_buffer(&records);
-            }
-            self.records = records;
+        if uvs(&records) != uvs(&self.records) {
+            // How many slices there may be depends on texture coordinates alone.
+            let Some(most) = limit(&found.facets, most) else {
+                return true;
+            };
+            self.most = most;
+        }
+        let is_as_long = records.len() == self.records.len();
+        self.records = records;
+        if is_as_long && let Some(mut buffer) = buffers.get_mut(&self.buffer) {
+            // It is written, and stays where it is.
+            *buffer = facet_buffer(&self.records);
             return false;
         }
-        let Some((counts, most)) = count_slots(facets, most) else {
-            return true;
-        };
-        self.slots = add_slots(&counts, meshes);
-        self.facets = buffers.add(facet_buffer(&records));
-        (self.records, self.most) = (records, most);
+        self.buffer = buffers.add(facet_buffer(&self.records));
         true
     }
 }
@@ -102,31 +101,23 @@ fn records(found: &SurfaceFacets) -> Vec<FacetRecord> {
         .collect()
 }
 
-fn add_slots(counts: &[Vec<usize>; 3], meshes: &mut Assets<Mesh>) -> [Handle<Mesh>; 3] {
-    counts
-        .each_ref()
-        .map(|counts| meshes.add(slot_mesh(counts.iter().copied())))
-}
-
-/// Slots for each facet, and the most slices a texel; fewer than `most` if there were too many slots. None, and a message,
-/// if one slice a texel is too many already.
-fn count_slots(facets: &[Facet], most: UVec3) -> Option<([Vec<usize>; 3], UVec3)> {
+/// The most slices a texel, fewer than `most` if facets would show too many in all. None, and a message, if one slice a
+/// texel is too many already.
+fn limit(facets: &[Facet], most: UVec3) -> Option<UVec3> {
     let mut fewer = most;
-    let mut counts: [Vec<usize>; 3] = default();
-    for (axis, counts) in SliceAxis::ALL.into_iter().zip(&mut counts) {
+    for axis in SliceAxis::ALL {
         let most = &mut fewer[axis.index()];
         loop {
-            counts.clear();
-            counts.extend(facets.iter().map(|facet| slots_of(facet, axis, *most)));
-            let slots = counts.iter().fold(0usize, |sum, n| sum.saturating_add(*n));
-            // One slot a facet is what any mesh takes.
-            if slots <= MAX_SLOTS.max(facets.len()) {
+            let counts = facets.iter().map(|facet| most_on_facet(facet, axis, *most));
+            let slices = counts.fold(0usize, usize::saturating_add);
+            // One slice a facet is what any mesh takes.
+            if slices <= MAX_SLICES.max(facets.len()) {
                 break;
             }
             if *most == 1 {
                 error!(
-                    "a surface of {} facets carries no texels: with one slice each across an axis there would be {slots}, \
-                     more than {MAX_SLOTS}. Its texture coordinates go over too many texels: scale them down, or \
+                    "a surface of {} facets carries no texels: with one slice each across an axis there would be {slices}, \
+                     more than {MAX_SLICES}. Its texture coordinates go over too many texels: scale them down, or \
                      subdivide the mesh into several",
                     facets.len()
                 );
@@ -137,12 +128,12 @@ fn count_slots(facets: &[Facet], most: UVec3) -> Option<([Vec<usize>; 3], UVec3)
     }
     if fewer != most {
         warn!(
-            "a surface of {} facets would need more than {MAX_SLOTS} slices across an axis: a texel gets {fewer} instead \
+            "a surface of {} facets would need more than {MAX_SLICES} slices across an axis: a texel gets {fewer} instead \
              of {most}; lower TexelSettings::most_slices, or let fewer texels lie on a facet",
             facets.len()
         );
     }
-    Some((counts, fewer))
+    Some(fewer)
 }
 
 fn bounds(facets: &[Facet]) -> Aabb {
@@ -171,13 +162,12 @@ mod tests {
             uvs: [Vec2::ZERO, Vec2::X * across, Vec2::Y],
         };
         let most = UVec3::splat(256);
-        let (_, all) = count_slots(&[facet(1.0)], most).expect("few texels have slots");
-        assert_eq!(all, most);
-        let (counts, fewer) = count_slots(&[facet(2e4)], most).expect("fewer slices have slots");
+        assert_eq!(limit(&[facet(1.0)], most), Some(most));
+        let fewer = limit(&[facet(2e4)], most).expect("fewer slices may be shown");
         assert!(fewer.x < 256 && fewer.x > 1, "{fewer}");
-        assert!(counts[0].iter().sum::<usize>() <= MAX_SLOTS);
+        assert!(most_on_facet(&facet(2e4), SliceAxis::U, fewer.x) <= MAX_SLICES);
         for across in [1e8, 1e30] {
-            assert!(count_slots(&[facet(across)], most).is_none(), "{across}");
+            assert_eq!(limit(&[facet(across)], most), None, "{across}");
         }
     }
 }

@@ -1,7 +1,8 @@
 //! What is on the GPU for the surfaces and volumes in use.
 
-use bevy::asset::AssetId;
+use bevy::asset::{AssetId, RenderAssetUsages};
 use bevy::image::Image;
+use bevy::mesh::PrimitiveTopology;
 use bevy::platform::collections::{HashMap, HashSet};
 use bevy::prelude::*;
 use bevy::render::storage::ShaderBuffer;
@@ -36,7 +37,8 @@ pub(crate) struct GeometryKey {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct TexelKeys {
     pub geometry: GeometryKey,
-    settings: [u32; 10],
+    /// Those that materials have.
+    settings: [u32; 4],
 }
 
 impl TexelKeys {
@@ -46,7 +48,6 @@ impl TexelKeys {
         settings: &TexelSettings,
         own: Option<Entity>,
     ) -> Self {
-        let quality = &settings.quality;
         Self {
             geometry: GeometryKey {
                 mesh,
@@ -58,12 +59,6 @@ impl TexelKeys {
                 own,
             },
             settings: [
-                quality.direction as u32,
-                quality.depth.to_bits(),
-                quality.pixels.to_bits(),
-                settings.shadows.depth.to_bits(),
-                settings.shadows.pixels.to_bits(),
-                settings.fade.into(),
                 settings.lit.into(),
                 settings.roughness.to_bits(),
                 settings.reflectance.to_bits(),
@@ -86,7 +81,9 @@ pub(crate) struct TexelLibrary {
     volumes: HashMap<VolumeKey, SharedVolume>,
     /// None for a mesh that carries no texels, which has been told.
     geometries: HashMap<GeometryKey, Option<Geometry>>,
-    materials: HashMap<TexelKeys, [Handle<TexelMaterial>; 3]>,
+    materials: HashMap<TexelKeys, [Handle<TexelMaterial>; 6]>,
+    /// What Bevy's phases have in place of slices.
+    quad: Option<Handle<Mesh>>,
 }
 
 /// The assets that surfaces are turned into.
@@ -105,8 +102,8 @@ pub(crate) enum Drawn<'a> {
     NotYet,
     /// Its mesh carries no texels.
     Nothing,
-    /// Slots, bounds, and materials across u, v and w.
-    Slices(&'a Geometry, [Handle<TexelMaterial>; 3]),
+    /// Facets, what there is of the volume, and materials for colours across u, v and w, and for depth.
+    Slices(&'a Geometry, VolumeMeasure, [Handle<TexelMaterial>; 6]),
 }
 
 impl TexelKeys {
@@ -118,6 +115,19 @@ impl TexelKeys {
 }
 
 impl TexelLibrary {
+    /// The mesh that stands for slices in Bevy's phases, and is never drawn: what is drawn are lists of slices.
+    pub(crate) fn quad(&mut self, meshes: &mut Assets<Mesh>) -> Handle<Mesh> {
+        let add = || {
+            let usage = RenderAssetUsages::RENDER_WORLD;
+            let mesh = Mesh::new(PrimitiveTopology::TriangleStrip, usage)
+                .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, vec![Vec3::ZERO; 4])
+                // Bevy warns of meshes without, in a normal prepass.
+                .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, vec![Vec3::Z; 4]);
+            meshes.add(mesh)
+        };
+        self.quad.get_or_insert_with(add).clone()
+    }
+
     /// What a surface is drawn with. `heights` are its own, if it has any.
     #[expect(
         clippy::too_many_arguments,
@@ -148,39 +158,35 @@ impl TexelLibrary {
                 return Drawn::NotYet;
             };
             let found = told_facets(keys.geometry.mesh, mesh, surface.thickness, heights);
-            let geometry = found.and_then(|facets| {
-                Geometry::new(
-                    &facets,
-                    measure.most,
-                    &mut assets.meshes,
-                    &mut assets.buffers,
-                )
-            });
+            let geometry =
+                found.and_then(|facets| Geometry::new(&facets, measure.most, &mut assets.buffers));
             self.geometries.insert(keys.geometry, geometry);
         }
         let Some(Some(geometry)) = self.geometries.get(&keys.geometry) else {
             return Drawn::Nothing;
         };
         let volumes = &self.volumes;
+        let measure = VolumeMeasure {
+            most: geometry.most,
+            ..measure
+        };
         let materials = self.materials.entry(keys).or_insert_with(|| {
             let images = &volumes[&keys.geometry.volume].images;
-            let measure = VolumeMeasure {
-                most: geometry.most,
-                ..measure
-            };
-            SliceAxis::ALL.map(|axis| {
+            let sets = [0, 1, 2, 3, 4, 5].map(|i| (SliceAxis::ALL[i % 3], i >= 3));
+            sets.map(|(axis, depth)| {
                 let [color, normal] = images[axis.index()].clone();
                 assets.materials.add(TexelMaterial {
                     texels: TexelsUniform::new(&measure, settings, wind),
-                    facets: geometry.facets.clone(),
+                    facets: geometry.buffer.clone(),
                     color,
                     normal,
                     axis,
                     lit: settings.lit,
+                    depth,
                 })
             })
         });
-        Drawn::Slices(geometry, materials.clone())
+        Drawn::Slices(geometry, measure, materials.clone())
     }
 
     fn volume(
@@ -259,8 +265,7 @@ impl TexelLibrary {
         let volume = self.volumes.get(&key.volume);
         let is_stale = match (geometry, volume, found) {
             (Some(geometry), Some(volume), Some(found)) if !found.facets.is_empty() => {
-                let (meshes, buffers) = (&mut assets.meshes, &mut assets.buffers);
-                geometry.renew(&found, volume.measure.most, meshes, buffers)
+                geometry.renew(&found, volume.measure.most, &mut assets.buffers)
             }
             // What is still wrong was told when it went wrong.
             (None, _, None) => return,

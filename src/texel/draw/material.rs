@@ -3,56 +3,40 @@
 use bevy::asset::Asset;
 use bevy::image::Image;
 use bevy::material::OpaqueRendererMethod;
-use bevy::math::{UVec3, Vec3, Vec4};
-use bevy::mesh::MeshVertexBufferLayoutRef;
+use bevy::math::{Vec3, Vec4};
+use bevy::mesh::{MeshVertexBufferLayoutRef, PrimitiveTopology};
 use bevy::pbr::{Material, MaterialPipeline, MaterialPipelineKey, MeshPipelineKey};
 use bevy::prelude::*;
 use bevy::render::render_resource::{
-    AsBindGroup, RenderPipelineDescriptor, ShaderType, SpecializedMeshPipelineError,
+    AsBindGroup, ColorWrites, CompareFunction, RenderPipelineDescriptor, ShaderType,
+    SpecializedMeshPipelineError,
 };
 use bevy::render::storage::ShaderBuffer;
 use bevy::shader::{ShaderDefVal, ShaderRef};
 
 use super::super::axis::SliceAxis;
-use super::super::choose::{DirectionRule, VolumeMeasure};
+use super::super::choose::VolumeMeasure;
 use super::component::TexelSettings;
-use super::slots::ATTRIBUTE_SLOT;
+use super::records::vertex_buffers;
 use crate::pipeline::{define, embedded_shader, names};
 
-/// A volume's measures and a surface's settings, as the shaders have them.
+/// What the shaders have of a volume and a surface's settings.
 #[derive(Clone, Copy, Debug, PartialEq, ShaderType)]
 pub(crate) struct TexelsUniform {
-    most: UVec3,
-    /// 1 by h·tan(a)/e, 2 where changes fade.
-    flags: u32,
     lengths: Vec3,
-    depth: f32,
-    thickness: Vec3,
-    pixels: f32,
     roughness: f32,
-    reflectance: f32,
-    shadow_depth: f32,
-    shadow_pixels: f32,
     /// Velocity of the wind, and flexibility.
     pub(crate) wind: Vec4,
+    reflectance: f32,
 }
 
 impl TexelsUniform {
     pub(crate) fn new(measure: &VolumeMeasure, settings: &TexelSettings, wind: Vec3) -> Self {
-        let quality = &settings.quality;
         Self {
-            most: measure.most,
-            flags: u32::from(quality.direction == DirectionRule::Quality)
-                | u32::from(settings.fade) << 1,
             lengths: measure.lengths,
-            depth: quality.depth,
-            thickness: measure.thickness.narrowest,
-            pixels: quality.pixels,
             roughness: settings.roughness,
-            reflectance: settings.reflectance,
-            shadow_depth: settings.shadows.depth,
-            shadow_pixels: settings.shadows.pixels,
             wind: wind.extend(settings.flexibility),
+            reflectance: settings.reflectance,
         }
     }
 }
@@ -72,6 +56,8 @@ pub struct TexelMaterial {
     pub(crate) normal: Handle<Image>,
     pub(crate) axis: SliceAxis,
     pub(crate) lit: bool,
+    /// Whether it is the depth of slices that is drawn, or the colour of those that are seen.
+    pub(crate) depth: bool,
 }
 
 /// What tells the pipelines of one material from another's.
@@ -80,6 +66,7 @@ pub struct TexelMaterial {
 pub struct TexelKey {
     axis: u8,
     lit: bool,
+    depth: bool,
 }
 
 impl From<&TexelMaterial> for TexelKey {
@@ -87,6 +74,7 @@ impl From<&TexelMaterial> for TexelKey {
         Self {
             axis: material.axis as u8,
             lit: material.lit,
+            depth: material.depth,
         }
     }
 }
@@ -114,8 +102,12 @@ impl Material for TexelMaterial {
     }
 
     fn alpha_mode(&self) -> AlphaMode {
-        // Any mask will do: it names the phase, the shader discards.
-        AlphaMode::Mask(0.5)
+        // They name the phases: depth among what is opaque, and colour after it. The shader discards.
+        if self.depth {
+            AlphaMode::Opaque
+        } else {
+            AlphaMode::Mask(0.5)
+        }
     }
 
     fn opaque_render_method(&self) -> OpaqueRendererMethod {
@@ -126,21 +118,42 @@ impl Material for TexelMaterial {
     fn specialize(
         _: &MaterialPipeline,
         descriptor: &mut RenderPipelineDescriptor,
-        layout: &MeshVertexBufferLayoutRef,
+        _: &MeshVertexBufferLayoutRef,
         key: MaterialPipelineKey<Self>,
     ) -> Result<(), SpecializedMeshPipelineError> {
-        let corners = layout
-            .0
-            .get_layout(&[ATTRIBUTE_SLOT.at_shader_location(0)])?;
-        descriptor.vertex.buffers = vec![corners];
+        descriptor.vertex.buffers = vertex_buffers();
+        descriptor.primitive.topology = PrimitiveTopology::TriangleStrip;
         descriptor.primitive.cull_mode = None;
         let own = key.bind_group_data;
         let axis = ShaderDefVal::UInt("TEXEL_AXIS".into(), own.axis.into());
         // The shaders know where four samples lie; with more or fewer, texels have plain outlines.
         let four = descriptor.multisample.count == 4;
         let sun = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
+        let is_defined = |name: &str| {
+            let mut defs = descriptor.vertex.shader_defs.iter();
+            defs.any(|def| *def == ShaderDefVal::from(name))
+        };
+        let is_main = !is_defined("PREPASS_PIPELINE");
+        let has_normals = !own.depth && is_main || is_defined("NORMAL_PREPASS");
+        if is_main
+            && own.depth
+            && let Some(fragment) = &mut descriptor.fragment
+        {
+            for target in fragment.targets.iter_mut().flatten() {
+                target.write_mask = ColorWrites::empty();
+            }
+        }
+        if is_main
+            && !own.depth
+            && let Some(depth) = &mut descriptor.depth_stencil
+        {
+            depth.depth_compare = Some(CompareFunction::Equal);
+            depth.depth_write_enabled = Some(false);
+        }
         let defs = names([
             (own.lit, "TEXEL_LIT"),
+            (has_normals, "TEXEL_NORMALS"),
+            (own.depth, "TEXEL_DEPTH"),
             (key.mesh_key.contains(sun), "TEXEL_DIRECTIONAL_LIGHT"),
             (four, "TEXEL_FOUR_SAMPLES"),
         ]);

@@ -34,27 +34,35 @@
 //! are, or height vectors differ much over it, gaps may show: subdivide the mesh. A change to one facet uploads those of
 //! its whole surface. Storage buffers in the vertex stage are required, so WebGL 2 is out.
 
+mod commands;
 mod component;
 mod geometry;
 mod images;
 mod library;
+mod limit;
+mod lists;
 mod material;
 mod records;
-mod slots;
+mod source;
 mod surface_mesh;
 mod systems;
 
 use bevy::asset::AssetEventSystems;
-use bevy::pbr::MaterialPlugin;
+use bevy::core_pipeline::core_3d::{AlphaMask3d, Opaque3d};
+use bevy::core_pipeline::prepass::AlphaMask3dPrepass;
+use bevy::pbr::{MaterialPlugin, Shadow};
 use bevy::prelude::*;
+use bevy::render::erased_render_asset::prepare_erased_assets;
+use bevy::render::render_phase::AddRenderCommand;
 use bevy::render::storage::ShaderBuffer;
+use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
 use bevy::shader::load_shader_library;
 
 pub use component::{
     ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface,
 };
+pub use limit::MAX_SLICES;
 pub use material::TexelMaterial;
-pub use slots::MAX_SLOTS;
 pub use surface_mesh::TexelSurfaceError;
 pub use systems::TexelSlices;
 
@@ -70,9 +78,7 @@ pub struct TexelPlugin;
 impl Plugin for TexelPlugin {
     fn build(&self, app: &mut App) {
         load_shader_library!(app, "shaders/types.wgsl");
-        load_shader_library!(app, "shaders/criteria.wgsl");
         load_shader_library!(app, "shaders/facet.wgsl");
-        load_shader_library!(app, "shaders/choose.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/look.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");
@@ -102,6 +108,27 @@ impl Plugin for TexelPlugin {
                     .run_if(resource_exists::<Assets<ShaderBuffer>>)
                     .in_set(VerdureSystems::Attach)
                     .before(AssetEventSystems),
+            );
+
+        let Some(render_app) = app.get_sub_app_mut(RenderApp) else {
+            return;
+        };
+        render_app
+            .init_resource::<lists::ExtractedTexels>()
+            .init_resource::<lists::SliceLists>()
+            .add_render_command::<Opaque3d, commands::DrawTexelDepth>()
+            .add_render_command::<AlphaMask3d, commands::DrawTexels>()
+            .add_render_command::<AlphaMask3dPrepass, commands::DrawTexelsBefore>()
+            .add_render_command::<Shadow, commands::DrawTexelsBefore>()
+            .add_systems(ExtractSchedule, lists::extract)
+            .add_systems(
+                Render,
+                (
+                    commands::draw_slices
+                        .in_set(RenderSystems::PrepareAssets)
+                        .after(prepare_erased_assets::<MeshMaterial3d<TexelMaterial>>),
+                    lists::list_slices.in_set(RenderSystems::PrepareResources),
+                ),
             );
     }
 }

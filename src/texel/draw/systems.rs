@@ -5,16 +5,17 @@ use bevy::camera::visibility::{NoAutoAabb, RenderLayers};
 use bevy::light::{NotShadowCaster, NotShadowReceiver};
 use bevy::platform::collections::HashSet;
 use bevy::prelude::*;
+use bevy::render::batching::NoAutomaticBatching;
 use bevy::render::renderer::RenderDevice;
 
 use super::super::asset::TexelVolume;
-use super::super::axis::SliceAxis;
 use super::component::{LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface};
 use super::library::{Drawn, TexelAssets, TexelKeys, TexelLibrary};
 use super::material::TexelMaterial;
+use super::source::SliceSource;
 use crate::wind::Wind;
 
-/// Marks the children of a [`TexelSurface`] that its slices are drawn by, one for each axis. Made by the plugin; they
+/// Marks the children of a [`TexelSurface`] that its slices are drawn by, two for each axis. Made by the plugin; they
 /// follow their surface's [`RenderLayers`], [`NotShadowCaster`] and [`NotShadowReceiver`].
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
@@ -24,8 +25,8 @@ pub struct TexelSlices;
 #[derive(Component)]
 pub(crate) struct TexelDrawn {
     keys: TexelKeys,
-    /// Those across u, v and w.
-    slices: [Entity; 3],
+    /// Those of colours across u, v and w, and of depth.
+    slices: [Entity; 6],
 }
 
 impl TexelDrawn {
@@ -48,14 +49,11 @@ type Attachable<'w> = (
     Option<Ref<'w, TexelHeights>>,
     Has<LiveTexels>,
     Option<&'w TexelDrawn>,
+    Option<&'w SliceSource>,
 );
 
 /// The children that slices are drawn by.
-type Slices<'w> = (
-    &'w mut Mesh3d,
-    &'w mut MeshMaterial3d<TexelMaterial>,
-    &'w mut Aabb,
-);
+type Slices<'w> = (&'w mut MeshMaterial3d<TexelMaterial>, &'w mut Aabb);
 
 /// Gives surfaces whose mesh and volume are there what they are drawn with. One whose volume is not there yet keeps what it
 /// has.
@@ -73,7 +71,8 @@ pub(crate) fn attach(
     }
     let layers = device.map_or(LAYERS, |device| device.limits().max_texture_array_layers);
     let wind = wind.limited();
-    for (entity, surface, settings, mesh, heights, is_live, drawn) in &surfaces {
+    let quad = library.quad(&mut assets.meshes);
+    for (entity, surface, settings, mesh, heights, is_live, drawn, source) in &surfaces {
         let own = (heights.is_some() || is_live).then_some(entity);
         let keys = TexelKeys::new(surface, mesh.id(), settings, own);
         let is_stroked = heights.as_ref().is_some_and(|heights| heights.is_changed());
@@ -86,45 +85,52 @@ pub(crate) fn attach(
             library.forget_others(keys.geometry);
         }
         let found = library.drawn(keys, surface, settings, heights, layers, wind, &mut assets);
-        let (geometry, materials) = match found {
+        let (geometry, measure, materials) = match found {
             Drawn::NotYet => continue,
             Drawn::Nothing => {
                 if let Some(drawn) = drawn {
                     drawn.despawn(&mut commands);
-                    commands.entity(entity).try_remove::<TexelDrawn>();
+                    commands
+                        .entity(entity)
+                        .try_remove::<(TexelDrawn, SliceSource)>();
                 }
                 continue;
             }
-            Drawn::Slices(geometry, materials) => (geometry, materials),
+            Drawn::Slices(geometry, measure, materials) => (geometry, measure, materials),
         };
-        let Some(drawn) = drawn else {
-            let slices = SliceAxis::ALL.map(SliceAxis::index).map(|axis| {
+        let ids = materials.each_ref().map(Handle::id);
+        let slices = if let Some(drawn) = drawn {
+            for (child, material) in drawn.slices.iter().zip(materials) {
+                if let Ok((mut used, mut bounds)) = slices.get_mut(*child) {
+                    used.set_if_neq(MeshMaterial3d(material));
+                    bounds.set_if_neq(geometry.bounds);
+                }
+            }
+            drawn.slices
+        } else {
+            materials.map(|material| {
                 let slices = (
                     TexelSlices,
-                    Mesh3d(geometry.slots[axis].clone()),
-                    MeshMaterial3d(materials[axis].clone()),
+                    Mesh3d(quad.clone()),
+                    MeshMaterial3d(material),
                     geometry.bounds,
                     NoAutoAabb,
+                    // Each is drawn from lists of its own.
+                    NoAutomaticBatching,
                     ChildOf(entity),
                 );
                 commands.spawn(slices).id()
-            });
+            })
+        };
+        if drawn.is_none_or(|drawn| drawn.keys != keys) {
             let drawn = TexelDrawn { keys, slices };
             commands.entity(entity).try_insert(drawn);
-            continue;
-        };
-        for ((child, slots), material) in drawn.slices.iter().zip(&geometry.slots).zip(materials) {
-            if let Ok((mut mesh, mut used, mut bounds)) = slices.get_mut(*child) {
-                mesh.set_if_neq(Mesh3d(slots.clone()));
-                used.set_if_neq(MeshMaterial3d(material));
-                bounds.set_if_neq(geometry.bounds);
-            }
         }
-        if drawn.keys != keys {
-            let slices = drawn.slices;
-            commands
-                .entity(entity)
-                .try_insert(TexelDrawn { keys, slices });
+        let is_as_before = source
+            .is_some_and(|source| source.is_of(&geometry.facets, &measure, settings, slices, ids));
+        if !is_as_before {
+            let source = SliceSource::new(&geometry.facets, measure, *settings, slices, ids);
+            commands.entity(entity).try_insert(source);
         }
     }
 }
@@ -218,7 +224,7 @@ pub(crate) fn uproot(
     if let Ok(drawn) = drawn.get(removed.entity) {
         drawn.despawn(&mut commands);
         if let Ok(mut entity) = commands.get_entity(removed.entity) {
-            entity.try_remove::<TexelDrawn>();
+            entity.try_remove::<(TexelDrawn, SliceSource)>();
         }
     }
 }

@@ -1,8 +1,8 @@
-//! The shaders' formulas against those in Rust: `criteria.wgsl`, `facet.wgsl` and `choose.wgsl` are run as they are.
+//! The shaders' formulas against those in Rust: `facet.wgsl` is run as it is.
 
 use core::time::Duration;
 
-use bevy::math::{UVec3, Vec2, Vec3, Vec4};
+use bevy::math::{Vec2, Vec3};
 use bevy::render::render_resource::{
     BindGroupEntry, BindGroupLayoutEntry, BindingType, BufferBindingType, BufferDescriptor,
     BufferInitDescriptor, BufferUsages, CommandEncoderDescriptor, ComputePassDescriptor, MapMode,
@@ -12,19 +12,22 @@ use bevy::render::render_resource::{
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy_verdure::lab::Headless;
 use bevy_verdure::plants::Dice;
-use bevy_verdure::texel::criteria::{finer_share, second_share};
-use bevy_verdure::texel::facet::{Facet, slice_line, slice_position, slice_range};
-use bevy_verdure::texel::{
-    Choice, DirectionRule, SliceAxis, TexelQuality, TexelView, Thickness, VolumeMeasure, choose,
-};
+use bevy_verdure::texel::SliceAxis;
+use bevy_verdure::texel::facet::{Facet, TexelFrame, slice_line, slice_position, slice_range};
 
-/// The shaders of the method that need no bindings, and an entry that runs them on cases.
+/// The shader of the method that needs no bindings, and an entry that runs it on cases.
 const ENTRY: &str = r"
 @group(0) @binding(0) var<storage, read> cases: array<array<f32, 44>>;
-@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 16>>;
+@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 32>>;
 
 fn vector(i: u32, at: u32) -> vec3<f32> {
     return vec3(cases[i][at], cases[i][at + 1u], cases[i][at + 2u]);
+}
+
+fn put(i: u32, at: u32, value: vec3<f32>) {
+    results[i][at] = value.x;
+    results[i][at + 1u] = value.y;
+    results[i][at + 2u] = value.z;
 }
 
 @compute @workgroup_size(64)
@@ -38,40 +41,29 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
         mat3x3(vector(i, 9u), vector(i, 12u), vector(i, 15u)),
         mat3x2(cases[i][18], cases[i][19], cases[i][20], cases[i][21], cases[i][22], cases[i][23]),
     );
-    let measure = VolumeMeasure(vec3<u32>(vector(i, 24u)), vector(i, 27u), vector(i, 30u));
-    var view: TexelView;
-    view.eye = vector(i, 33u);
-    view.direction = vector(i, 36u);
-    view.orthographic = cases[i][39] != 0.0;
-    view.pixels = cases[i][40];
-    let quality = TexelQuality(cases[i][41] != 0.0, cases[i][42], cases[i][43]);
-    let choice = choose(facet, measure, view, quality);
-    let count = 1u << choice.exponent;
-    let range = slice_range(facet.uvs, choice.axis, count);
-    results[i][0] = f32(choice.axis);
-    results[i][1] = f32(choice.exponent);
-    results[i][2] = f32(choice.along);
-    results[i][3] = f32(range.x);
-    results[i][4] = f32(range.y);
-    let position = slice_position(range.x + range.y / 2, count);
-    let first = slice_line_end(facet.uvs, choice.axis, position, false);
-    let last = slice_line_end(facet.uvs, choice.axis, position, true);
-    for (var k = 0u; k < 3u; k += 1u) {
-        results[i][5u + k] = first[k];
-        results[i][8u + k] = last[k];
-    }
-    // Within and beyond where things fade.
-    let share = 0.7 + 0.35 * fract(cases[i][40]);
-    results[i][11] = finer_share(f32(count) * share, choice.exponent, 128u);
-    results[i][12] = second_share(share * 3.0, 3.0);
+    let b = vector(i, 24u);
+    let lengths = vector(i, 27u);
+    let baked = vector(i, 30u);
+    let w = cases[i][33];
+    let axis = u32(cases[i][34]);
+    let position = slice_position(i32(cases[i][35]), u32(cases[i][36]));
+    put(i, 0u, slice_line_end(facet.uvs, axis, position, false));
+    put(i, 3u, slice_line_end(facet.uvs, axis, position, true));
+    put(i, 6u, facet_point(facet, b, w));
+    let frame = texel_frame(facet, b, w);
+    put(i, 9u, frame.edges[0]);
+    put(i, 12u, frame.edges[1]);
+    put(i, 15u, frame.edges[2]);
+    put(i, 18u, normalize(normal_transform(frame, lengths) * baked));
+    results[i][21] = facet_uv(facet, b).x;
+    results[i][22] = facet_uv(facet, b).y;
+    results[i][23] = position;
 }
 ";
 
 fn source() -> String {
     let parts = [
-        include_str!("../../../src/texel/draw/shaders/criteria.wgsl"),
         include_str!("../../../src/texel/draw/shaders/facet.wgsl"),
-        include_str!("../../../src/texel/draw/shaders/choose.wgsl"),
         ENTRY,
     ];
     let lines = parts.iter().flat_map(|part| part.lines());
@@ -82,13 +74,17 @@ fn source() -> String {
         .join("\n")
 }
 
-/// What is chosen for.
+/// A place on a facet, and a slice of it.
 #[derive(Clone, Debug)]
 struct Case {
     facet: Facet,
-    measure: VolumeMeasure,
-    view: TexelView,
-    quality: TexelQuality,
+    b: Vec3,
+    w: f32,
+    lengths: Vec3,
+    normal: Vec3,
+    axis: SliceAxis,
+    slice: i32,
+    count: u32,
 }
 
 impl Case {
@@ -96,7 +92,7 @@ impl Case {
         let vector =
             |dice: &mut Dice, by: f32| Vec3::new(dice.jitter(by), dice.jitter(by), dice.jitter(by));
         let size = 4f32.powf(dice.jitter(1.0));
-        let facet = loop {
+        loop {
             let corners = [Vec3::ZERO, Vec3::X, Vec3::NEG_Z];
             let uvs = [Vec2::ZERO, Vec2::X, Vec2::Y];
             let facet = Facet {
@@ -106,39 +102,23 @@ impl Case {
                     uv * dice.between(0.5, 3.0) + Vec2::new(dice.jitter(2.0), dice.jitter(2.0))
                 }),
             };
-            if facet.check().is_ok() {
-                break facet;
+            let axis = SliceAxis::ALL[(dice.roll() * 1.99) as usize];
+            let count = 1 << (dice.roll() * 8.99) as u32;
+            let range = slice_range(facet.uvs, axis, count);
+            if facet.check().is_err() || range.is_empty() {
+                continue;
             }
-        };
-        let power = |dice: &mut Dice| 1 << (dice.roll() * 8.99) as u32;
-        Self {
-            facet,
-            measure: VolumeMeasure {
-                most: UVec3::new(power(dice), power(dice), power(dice)),
+            let (r, s) = (dice.roll(), dice.roll());
+            break Self {
+                facet,
+                b: Vec3::new(1.0 - r.max(s), r.min(s), r.max(s) - r.min(s)),
+                w: dice.roll(),
                 lengths: Vec3::new(1.0, dice.between(0.5, 2.0), dice.between(0.2, 1.0)),
-                thickness: Thickness {
-                    narrowest: Vec3::new(
-                        dice.between(0.01, 0.2),
-                        dice.between(0.01, 0.2),
-                        dice.between(0.01, 0.2),
-                    ),
-                },
-            },
-            view: TexelView {
-                eye: vector(dice, 10.0) * size,
-                direction: (dice.roll() < 0.3).then(|| vector(dice, 1.0).normalize_or(Vec3::X)),
-                pixels: dice.between(50.0, 2000.0),
-                half_spaces: [Vec4::ZERO; 6],
-            },
-            quality: TexelQuality {
-                direction: if dice.roll() < 0.5 {
-                    DirectionRule::Quality
-                } else {
-                    DirectionRule::StepAside
-                },
-                depth: dice.between(0.1, 1.0),
-                pixels: dice.between(0.5, 4.0),
-            },
+                normal: vector(dice, 1.0).normalize_or(Vec3::X),
+                axis,
+                slice: range.start + (dice.roll() * range.len() as f32) as i32,
+                count,
+            };
         }
     }
 
@@ -148,41 +128,17 @@ impl Case {
             floats.extend(vectors.iter().flat_map(|vector| vector.to_array()));
         }
         floats.extend(self.facet.uvs.iter().flat_map(|uv| uv.to_array()));
-        let direction = self.view.direction.unwrap_or_default();
-        for vector in [
-            self.measure.most.as_vec3(),
-            self.measure.lengths,
-            self.measure.thickness.narrowest,
-            self.view.eye,
-            direction,
-        ] {
+        for vector in [self.b, self.lengths, self.normal] {
             floats.extend(vector.to_array());
         }
-        let flag = |set: bool| f32::from(u8::from(set));
-        floats.extend([
-            flag(self.view.direction.is_some()),
-            self.view.pixels,
-            flag(self.quality.direction == DirectionRule::Quality),
-            self.quality.depth,
-            self.quality.pixels,
-        ]);
+        let axis = self.axis.index() as f32;
+        floats.extend([self.w, axis, self.slice as f32, self.count as f32]);
+        floats.resize(44, 0.0);
         floats.try_into().expect("44 floats")
-    }
-
-    /// What is chosen if all that decides is larger by a share: roundings differ, and there is always one on the edge.
-    fn choose(&self, share: f32) -> Choice {
-        let mut near = self.clone();
-        near.view.eye *= 1.0 + share;
-        near.quality.depth *= 1.0 - share;
-        near.quality.pixels *= 1.0 - share;
-        if let Some(direction) = &mut near.view.direction {
-            direction.x += share;
-        }
-        choose(&near.facet, &near.measure, &near.view, &near.quality)
     }
 }
 
-fn run(cases: &[Case]) -> Vec<[f32; 16]> {
+fn run(cases: &[Case]) -> Vec<[f32; 32]> {
     let mut headless = Headless::new(Duration::ZERO, |_| {});
     headless.step();
     let world = headless.world();
@@ -223,7 +179,7 @@ fn run(cases: &[Case]) -> Vec<[f32; 16]> {
         contents: bytemuck::cast_slice(&floats),
         usage: BufferUsages::STORAGE,
     });
-    let size = (cases.len() * 64) as u64;
+    let size = (cases.len() * 128) as u64;
     let buffer = |usage| {
         device.create_buffer(&BufferDescriptor {
             label: None,
@@ -264,51 +220,39 @@ fn run(cases: &[Case]) -> Vec<[f32; 16]> {
 }
 
 #[test]
-fn shaders_choose_and_cut_as_rust_does() {
+fn shaders_place_slices_as_rust_does() {
     let mut dice = Dice::new(9);
     let cases: Vec<Case> = (0..20_000).map(|_| Case::roll(&mut dice)).collect();
-    let mut on_the_edge = 0;
-    let mut axes = [0; 3];
     for (case, found) in cases.iter().zip(run(&cases)) {
-        let axis = SliceAxis::ALL[found[0] as usize];
-        let chosen = Choice::Slices {
-            axis,
-            exponent: found[1] as u8,
-            along: found[2] != 0.0,
-        };
-        axes[axis.index()] += 1;
-        if chosen != case.choose(0.0) {
-            on_the_edge += 1;
-            let near = [-1e-5, 1e-5, -1e-4, 1e-4].map(|share| case.choose(share));
-            assert!(near.contains(&chosen), "{case:?}: {chosen:?}, not {near:?}");
-        }
-        let count = 1 << found[1] as u32;
-        let share = 0.7 + 0.35 * case.view.pixels.fract();
-        let fades = [
-            finer_share(count as f32 * share, found[1] as u32, 128),
-            second_share(share * 3.0, 3.0),
-        ];
-        for (fade, found) in fades.iter().zip(&found[11..]) {
-            // What rounds, at the scale of the fade.
-            assert!((fade - found).abs() < 1e-5, "{share}: {found}, not {fade}");
-        }
-        let range = slice_range(case.facet.uvs, axis, count);
-        assert_eq!(
-            [found[3] as i32, found[4] as i32],
-            [range.start, range.end - range.start]
-        );
-        if axis == SliceAxis::W || range.is_empty() {
-            continue;
-        }
-        let middle = range.start + (range.end - range.start) / 2;
-        let ends = slice_line(case.facet.uvs, axis, slice_position(middle, count));
+        let vector = |at: usize| Vec3::from_slice(&found[at..at + 3]);
+        let facet = &case.facet;
+        let position = slice_position(case.slice, case.count);
+        assert_eq!(found[23], position);
+        let ends = slice_line(facet.uvs, case.axis, position);
         let ends = ends.expect("slices of the range meet the facet");
-        for (k, end) in ends.iter().enumerate() {
-            let found = Vec3::from_slice(&found[5 + 3 * k..8 + 3 * k]);
-            assert!(found.distance(*end) < 1e-5, "{case:?}: {found}, not {end}");
+        for (end, at) in ends.into_iter().zip([0, 3]) {
+            assert!(vector(at).distance(end) < 1e-5, "{case:?}: {}", vector(at));
         }
+        // Roundings of a few operations, at the size of the facet.
+        let size = facet.bounds().1;
+        let point = facet.point(case.b, case.w);
+        assert!(vector(6).distance(point) < 1e-6 * size, "{case:?}");
+        let frame = TexelFrame::new(facet, case.b, case.w);
+        // Edges are quotients by the area on the texture, which may cancel.
+        let [s, t] = [facet.uvs[1] - facet.uvs[0], facet.uvs[2] - facet.uvs[0]];
+        let lost = s.length() * t.length() / s.perp_dot(t).abs();
+        for (edge, at) in frame.edges.into_iter().zip([9, 12, 15]) {
+            let scale = size + edge.length();
+            assert!(vector(at).distance(edge) < 1e-5 * scale * lost, "{case:?}");
+        }
+        let normal = frame.transform_normal(case.normal, case.lengths);
+        let normal = normal.normalize();
+        let [u, v, w] = frame.edges.map(Vec3::normalize);
+        let flat = u.dot(v.cross(w)).abs();
+        // Normals of flat texels turn with small errors of what they are normal to.
+        let bound = 1e-5 * lost / flat;
+        assert!(vector(18).distance(normal) < bound, "{case:?}");
+        let uv = Vec2::new(found[21], found[22]);
+        assert!(uv.distance(facet.uv(case.b)) < 1e-5, "{case:?}: {uv}");
     }
-    assert!(axes.iter().all(|&count| count > 1000), "{axes:?}");
-    // Roundings decide for few.
-    assert!(on_the_edge < 40, "{on_the_edge}");
 }

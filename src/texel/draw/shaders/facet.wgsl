@@ -14,12 +14,6 @@ struct TexelFrame {
     edges: mat3x3<f32>,
 }
 
-// The unit normal of the slices of a direction, and the length of one texel along it.
-struct NormalAndLength {
-    normal: vec3<f32>,
-    length: f32,
-}
-
 fn corners(facet: Facet, w: f32) -> mat3x3<f32> {
     return facet.positions + facet.heights * w;
 }
@@ -31,19 +25,6 @@ fn facet_point(facet: Facet, b: vec3<f32>, w: f32) -> vec3<f32> {
 
 fn facet_uv(facet: Facet, b: vec3<f32>) -> vec2<f32> {
     return facet.uvs[0] * b.x + facet.uvs[1] * b.y + facet.uvs[2] * b.z;
-}
-
-// A sphere round the prism: centre and radius.
-fn facet_bounds(facet: Facet) -> vec4<f32> {
-    let low = corners(facet, 0.0);
-    let high = corners(facet, 1.0);
-    let least = min(min(min(low[0], low[1]), min(low[2], high[0])), min(high[1], high[2]));
-    let greatest = max(max(max(low[0], low[1]), max(low[2], high[0])), max(high[1], high[2]));
-    let centre = (least + greatest) * 0.5;
-    let radius = max(
-        max(max(distance(low[0], centre), distance(low[1], centre)), distance(low[2], centre)),
-        max(max(distance(high[0], centre), distance(high[1], centre)), distance(high[2], centre)));
-    return vec4(centre, radius);
 }
 
 fn texel_frame(facet: Facet, b: vec3<f32>, w: f32) -> TexelFrame {
@@ -58,13 +39,6 @@ fn texel_frame(facet: Facet, b: vec3<f32>, w: f32) -> TexelFrame {
         (along_t * s.x - along_s * t.x) / det,
         facet.heights[0] * b.x + facet.heights[1] * b.y + facet.heights[2] * b.z,
     ));
-}
-
-fn normal_and_length(edge: vec3<f32>, a: vec3<f32>, b: vec3<f32>) -> NormalAndLength {
-    let across = cross(a, b);
-    let normal = across / length(across);
-    let length = dot(edge, normal);
-    return NormalAndLength(select(normal, -normal, length < 0.0), abs(length));
 }
 
 // What turns normals of the volume, which are in metres of a box of some `lengths`, to the space of the facet.
@@ -98,30 +72,8 @@ fn smooth_frame(frame: TexelFrame, normal: vec3<f32>) -> TexelFrame {
     ));
 }
 
-// By how much the box is stretched along u, v and w.
-fn stretches(frame: TexelFrame, lengths: vec3<f32>) -> vec3<f32> {
-    return vec3(length(frame.edges[0]), length(frame.edges[1]), length(frame.edges[2])) / lengths;
-}
-
 fn uv_along(axis: u32, uv: vec2<f32>) -> f32 {
     return select(uv.y, uv.x, axis == 0u);
-}
-
-// The first slice above a value of u or v.
-fn first_above(value: f32, count: u32) -> i32 {
-    return i32(floor(value * f32(count) - 0.5)) + 1;
-}
-
-// The first of the slices that cut a facet, and how many there are.
-fn slice_range(uvs: mat3x2<f32>, axis: u32, count: u32) -> vec2<i32> {
-    if axis == 2u {
-        return vec2(0, i32(count));
-    }
-    let a = uv_along(axis, uvs[0]);
-    let b = uv_along(axis, uvs[1]);
-    let c = uv_along(axis, uvs[2]);
-    let first = first_above(min(min(a, b), c), count);
-    return vec2(first, max(first_above(max(max(a, b), c), count) - first, 0));
 }
 
 fn slice_position(slice: i32, count: u32) -> f32 {

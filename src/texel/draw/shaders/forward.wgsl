@@ -1,11 +1,14 @@
-// The main pass: slices lit by the scene.
+// The main pass, in two draws: the depth of slices among all that is opaque, and then the light of those that are seen. What
+// is hidden costs no light.
 
 #import bevy_pbr::{
     pbr_functions,
     pbr_types,
 }
-#import bevy_pbr::mesh_bindings::mesh
-#import bevy_verdure::texel::look::{covered_samples, slice_color, slice_normal_and_alpha, world_normal}
+#import bevy_verdure::texel::look::{covered_samples, slice_color, slice_normal_and_alpha}
+#ifdef TEXEL_NORMALS
+#import bevy_verdure::texel::look::world_normal
+#endif
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::texel::types::texels
 
@@ -14,28 +17,43 @@ fn vertex(corner: Corner) -> Varying {
     return place_corner(corner);
 }
 
-struct Output {
-    @location(0) color: vec4<f32>,
+#ifdef TEXEL_DEPTH
+
 #ifdef TEXEL_FOUR_SAMPLES
-    @builtin(sample_mask) coverage: u32,
-#endif
-}
 
 @fragment
-fn fragment(in: Varying) -> Output {
-    let baked = slice_normal_and_alpha(in);
-    let seen = slice_color(in);
-    let covered = covered_samples(in, baked.a);
+fn fragment(in: Varying) -> @builtin(sample_mask) u32 {
+    let covered = covered_samples(in, slice_normal_and_alpha(in).a);
     if covered == 0u {
         discard;
     }
+    return covered;
+}
+
+#else
+
+@fragment
+fn fragment(in: Varying) {
+    if covered_samples(in, slice_normal_and_alpha(in).a) == 0u {
+        discard;
+    }
+}
+
+#endif
+
+#else
+
+@fragment
+fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    let baked = slice_normal_and_alpha(in);
+    let seen = slice_color(in);
     let normal = world_normal(in, baked.xyz);
     var input = pbr_types::pbr_input_new();
     input.material.base_color = vec4(seen, 1.0);
     input.material.perceptual_roughness = texels.roughness;
     input.material.reflectance = vec3(texels.reflectance);
     input.material.flags = input.material.flags | pbr_types::STANDARD_MATERIAL_FLAGS_FOG_ENABLED_BIT;
-    input.flags = mesh[in.instance_index].flags;
+    input.flags = in.flags;
     input.frag_coord = in.position;
     // Lit and shadowed where the surface is, above the inside that slices show (§4.1).
     input.world_position = vec4(in.world_position.xyz + normal * in.inside, 1.0);
@@ -48,10 +66,7 @@ fn fragment(in: Varying) -> Output {
     color = pbr_functions::apply_pbr_lighting(input);
 #endif
     color = pbr_functions::main_pass_post_lighting_processing(input, color);
-    var out: Output;
-    out.color = vec4(color.rgb, 1.0);
-#ifdef TEXEL_FOUR_SAMPLES
-    out.coverage = covered;
-#endif
-    return out;
+    return vec4(color.rgb, 1.0);
 }
+
+#endif

@@ -33,6 +33,8 @@ fn covered_samples(in: Varying, alpha: f32) -> u32 {
 #endif
 }
 
+#ifdef TEXEL_NORMALS
+
 // The unit normal in world space, of one of the volume as its texture has it.
 fn world_normal(in: Varying, baked: vec3<f32>) -> vec3<f32> {
     let n = baked * 2.0 - 1.0;
@@ -41,3 +43,5 @@ fn world_normal(in: Varying, baked: vec3<f32>) -> vec3<f32> {
     let is_none = dot(turned, turned) == 0.0;
     return normalize(select(turned, in.normal_from_w, is_none));
 }
+
+#endif

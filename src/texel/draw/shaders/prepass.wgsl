@@ -1,8 +1,11 @@
 // The prepasses and the shadow maps.
 
-#import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
+#import bevy_pbr::prepass_bindings::previous_view_uniforms
 #import bevy_pbr::mesh_view_bindings::view
-#import bevy_verdure::texel::look::{covered_samples, slice_normal_and_alpha, world_normal}
+#import bevy_verdure::texel::look::{covered_samples, slice_normal_and_alpha}
+#ifdef NORMAL_PREPASS
+#import bevy_verdure::texel::look::world_normal
+#endif
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner}
 
 @vertex
@@ -42,9 +45,8 @@ fn fragment(in: Varying) -> Output {
     out.normal = vec4(world_normal(in, baked.xyz) * 0.5 + vec3(0.5), 1.0);
 #endif
 #ifdef MOTION_VECTOR_PREPASS
-    let before = mesh_functions::get_previous_world_from_local(in.instance_index) * vec4(in.local_position, 1.0);
     let clip = view.unjittered_clip_from_world * in.world_position;
-    let clip_before = previous_view_uniforms.clip_from_world * before;
+    let clip_before = previous_view_uniforms.clip_from_world * vec4(in.previous_world_position, 1.0);
     // In texture coordinates: clip space is two wide, and its y points up.
     out.motion_vector = (clip.xy / clip.w - clip_before.xy / clip_before.w) * vec2(0.5, -0.5);
 #endif

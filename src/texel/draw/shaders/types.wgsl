@@ -10,23 +10,12 @@ struct FacetRecord {
 }
 
 struct Texels {
-    // The largest number of slices along u, v and w, powers of two.
-    most: vec3<u32>,
-    // 1 where directions are judged by h·tan(a)/e, 2 where changes fade.
-    flags: u32,
     // Of the volume's box, in metres.
     lengths: vec3<f32>,
-    depth: f32,
-    // e along u, v and w.
-    thickness: vec3<f32>,
-    pixels: f32,
     roughness: f32,
-    reflectance: f32,
-    // Depth and pixels for the views of lights.
-    shadow_depth: f32,
-    shadow_pixels: f32,
     // xyz: velocity of the wind; w: how far it moves the top, in heights, for each metre a second.
     wind: vec4<f32>,
+    reflectance: f32,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;

@@ -1,0 +1,143 @@
+//! How slices are drawn in Bevy's phases: as a material's mesh is, but from the lists of the view.
+
+use std::sync::Arc;
+
+use bevy::core_pipeline::core_3d::{AlphaMask3d, Opaque3d};
+use bevy::core_pipeline::prepass::{AlphaMask3dPrepass, DepthPrepass};
+use bevy::ecs::query::ROQueryItem;
+use bevy::ecs::system::SystemParamItem;
+use bevy::ecs::system::lifetimeless::SRes;
+use bevy::material::RenderPhaseType;
+use bevy::material::labels::DrawFunctionLabel;
+use bevy::pbr::{
+    MainPassAlphaMaskDrawFunction, MainPassOpaqueDrawFunction, PreparedMaterial,
+    PrepassAlphaMaskDrawFunction, SetMaterialBindGroup, SetMeshBindGroup, SetMeshViewBindGroup,
+    SetMeshViewBindingArrayBindGroup, SetPrepassViewBindGroup, SetPrepassViewEmptyBindGroup,
+    Shadow, ShadowsDrawFunction,
+};
+use bevy::prelude::*;
+use bevy::render::erased_render_asset::ErasedRenderAssets;
+use bevy::render::render_phase::{
+    DrawFunctions, PhaseItem, RenderCommand, RenderCommandResult, SetItemPipeline,
+    TrackedRenderPass,
+};
+
+use super::lists::{ExtractedTexels, SliceLists};
+
+/// Draws the slices that a view has of a surface across an axis.
+pub(crate) struct DrawSlices;
+
+impl<P: PhaseItem> RenderCommand<P> for DrawSlices {
+    type Param = SRes<SliceLists>;
+    type ViewQuery = Entity;
+    type ItemQuery = ();
+
+    fn render<'w>(
+        item: &P,
+        view: ROQueryItem<'w, '_, Self::ViewQuery>,
+        _: Option<()>,
+        lists: SystemParamItem<'w, '_, Self::Param>,
+        pass: &mut TrackedRenderPass<'w>,
+    ) -> RenderCommandResult {
+        let found = lists.into_inner().get(view, item.main_entity());
+        let Some((records, surfaces, range, surface)) = found else {
+            return RenderCommandResult::Skip;
+        };
+        pass.set_vertex_buffer(0, records.slice(..));
+        pass.set_vertex_buffer(1, surfaces.slice(surface..));
+        pass.draw(0..4, range);
+        RenderCommandResult::Success
+    }
+}
+
+/// Goes on only where no prepass has drawn depth.
+pub(crate) struct OnlyWithoutPrepass;
+
+impl<P: PhaseItem> RenderCommand<P> for OnlyWithoutPrepass {
+    type Param = ();
+    type ViewQuery = Has<DepthPrepass>;
+    type ItemQuery = ();
+
+    fn render<'w>(
+        _: &P,
+        has_prepass: ROQueryItem<'w, '_, Self::ViewQuery>,
+        _: Option<()>,
+        (): SystemParamItem<'w, '_, Self::Param>,
+        _: &mut TrackedRenderPass<'w>,
+    ) -> RenderCommandResult {
+        if has_prepass {
+            RenderCommandResult::Skip
+        } else {
+            RenderCommandResult::Success
+        }
+    }
+}
+
+/// Depth in the main pass.
+pub(crate) type DrawTexelDepth = (OnlyWithoutPrepass, DrawTexels);
+
+/// In the main pass.
+pub(crate) type DrawTexels = (
+    SetItemPipeline,
+    SetMeshViewBindGroup<0>,
+    SetMeshViewBindingArrayBindGroup<1>,
+    SetMeshBindGroup<2>,
+    SetMaterialBindGroup<3>,
+    DrawSlices,
+);
+
+/// In prepasses and shadow maps.
+pub(crate) type DrawTexelsBefore = (
+    SetItemPipeline,
+    SetPrepassViewBindGroup<0>,
+    SetPrepassViewEmptyBindGroup<1>,
+    SetMeshBindGroup<2>,
+    SetMaterialBindGroup<3>,
+    DrawSlices,
+);
+
+/// Lets materials of texels be drawn so, which Bevy has prepared to draw meshes.
+pub(crate) fn draw_slices(
+    texels: Res<ExtractedTexels>,
+    mut materials: ResMut<ErasedRenderAssets<PreparedMaterial>>,
+    opaque: Res<DrawFunctions<Opaque3d>>,
+    main: Res<DrawFunctions<AlphaMask3d>>,
+    prepass: Res<DrawFunctions<AlphaMask3dPrepass>>,
+    shadow: Res<DrawFunctions<Shadow>>,
+) {
+    let own = [
+        (
+            MainPassOpaqueDrawFunction.intern(),
+            opaque.read().id::<DrawTexelDepth>(),
+        ),
+        (
+            MainPassAlphaMaskDrawFunction.intern(),
+            main.read().id::<DrawTexels>(),
+        ),
+        (
+            PrepassAlphaMaskDrawFunction.intern(),
+            prepass.read().id::<DrawTexelsBefore>(),
+        ),
+        (
+            ShadowsDrawFunction.intern(),
+            shadow.read().id::<DrawTexelsBefore>(),
+        ),
+    ];
+    for material in texels.sources().flat_map(|source| source.materials) {
+        let Some(material) = materials.get_mut(material) else {
+            continue;
+        };
+        // Newly prepared, it is nobody else's yet.
+        let Some(properties) = Arc::get_mut(&mut material.properties) else {
+            continue;
+        };
+        // Of what draws depth in the main pass alone, prepasses and shadow maps have nothing.
+        let is_mask = matches!(properties.render_phase_type, RenderPhaseType::AlphaMask);
+        (properties.prepass_enabled, properties.shadows_enabled) = (is_mask, is_mask);
+        for (label, function) in &mut properties.draw_functions {
+            if let Some((_, own)) = own.iter().find(|(known, _)| known == label) {
+                *function = *own;
+            }
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! What the slices of a surface are chosen from.
+
+use std::sync::Arc;
+
+use bevy::asset::AssetId;
+use bevy::math::{Affine3A, Mat4, Vec3, Vec3A, Vec4};
+use bevy::prelude::*;
+
+use super::super::choose::{TexelQuality, TexelView, VolumeMeasure, choose_fading};
+use super::super::facet::{Facet, bend, slice_range};
+use super::component::TexelSettings;
+use super::material::TexelMaterial;
+use super::records::SliceRecord;
+
+/// What the slices of a surface are chosen from, in each view. On the surface; the plugin keeps it up to date.
+#[derive(Component, Clone, Debug)]
+pub(crate) struct SliceSource {
+    /// In the space of the surface. All pass their check.
+    facets: Arc<[Facet]>,
+    /// A sphere that holds them.
+    centre: Vec3,
+    radius: f32,
+    measure: VolumeMeasure,
+    settings: TexelSettings,
+    /// The children that colours across u, v and w are drawn by, those for depth, and their materials.
+    pub slices: [Entity; 6],
+    pub materials: [AssetId<TexelMaterial>; 6],
+}
+
+impl SliceSource {
+    pub(crate) fn new(
+        facets: &Arc<[Facet]>,
+        measure: VolumeMeasure,
+        settings: TexelSettings,
+        slices: [Entity; 6],
+        materials: [AssetId<TexelMaterial>; 6],
+    ) -> Self {
+        let (centre, radius) = sphere_of(facets);
+        Self {
+            facets: facets.clone(),
+            centre,
+            radius,
+            measure,
+            settings,
+            slices,
+            materials,
+        }
+    }
+
+    /// Whether [`new`](Self::new) would make the same of these.
+    pub(crate) fn is_of(
+        &self,
+        facets: &Arc<[Facet]>,
+        measure: &VolumeMeasure,
+        settings: &TexelSettings,
+        slices: [Entity; 6],
+        materials: [AssetId<TexelMaterial>; 6],
+    ) -> bool {
+        Arc::ptr_eq(&self.facets, facets)
+            && self.measure == *measure
+            && self.settings == *settings
+            && self.slices == slices
+            && self.materials == materials
+    }
+}
+
+/// Where and when facets are seen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeenFrom {
+    /// With its eye, if it has one, at zero.
+    pub view: TexelView,
+    /// Where that is in the world.
+    pub eye: Vec3,
+    /// Whether it is a light that sees.
+    pub is_light: bool,
+    /// The wind's velocity, and the time in seconds.
+    pub wind: Vec3,
+    pub time: f32,
+}
+
+impl SliceSource {
+    /// Lists the slices that a view has of a surface placed so, across u, v and w: facet by facet, on each the nearest first, so
+    /// that they hide the far ones.
+    pub(crate) fn list(
+        &self,
+        world_from_local: &Affine3A,
+        from: &SeenFrom,
+        lists: &mut [Vec<SliceRecord>; 3],
+    ) {
+        // From the eye, so that a facet 10 km from the origin is as steady as one at the origin.
+        let mut eye_from_local = *world_from_local;
+        eye_from_local.translation -= Vec3A::from(from.eye);
+        let stretch = eye_from_local.matrix3.x_axis.length();
+        let stretch = stretch.max(eye_from_local.matrix3.y_axis.length());
+        let stretch = stretch.max(eye_from_local.matrix3.z_axis.length());
+        let centre = eye_from_local.transform_point3(self.centre);
+        // Sheared by less than the three axes together could.
+        if !from
+            .view
+            .may_see(centre, self.radius * stretch * 3f32.sqrt())
+        {
+            return;
+        }
+        let settings = &self.settings;
+        let quality = if from.is_light {
+            TexelQuality {
+                direction: settings.quality.direction,
+                ..settings.shadows
+            }
+        } else {
+            settings.quality
+        };
+        // Shadows are not seen to pop, and stay whole.
+        let fades = settings.fade && !from.is_light;
+        for (index, facet) in (0u32..).zip(&*self.facets) {
+            let positions = facet
+                .positions
+                .map(|at| eye_from_local.transform_point3(at));
+            let heights = facet.heights.map(|h| eye_from_local.transform_vector3(h));
+            let bent = |i: usize| {
+                let foot = positions[i] + from.eye;
+                bend(foot, heights[i], from.wind, settings.flexibility, from.time)
+            };
+            let facet = Facet {
+                positions,
+                heights: [0, 1, 2].map(bent),
+                uvs: facet.uvs,
+            };
+            let chosen = choose_fading(&facet, &self.measure, &from.view, &quality);
+            for slices in chosen.into_iter().flatten() {
+                let [mut low, mut high] = slices.lots;
+                if !fades {
+                    (low, high) = (low.round(), high.round());
+                }
+                let finer = if fades { slices.finer } else { 0.0 };
+                // Twice as many slices fade in from the lower lots on.
+                let split = low + (high - low) * finer;
+                let count = 1u32 << slices.exponent;
+                for (count, low, high) in [(count, split, high), (2 * count, low, split)] {
+                    if low >= high {
+                        continue;
+                    }
+                    let range = slice_range(facet.uvs, slices.axis, count);
+                    let record = |slice| SliceRecord {
+                        facet: index,
+                        slice,
+                        count,
+                        lots: [low, high],
+                        // Light sees slices too: those of merged layers stand out by up to half their distance.
+                        inside: slices.inside + slices.depth,
+                    };
+                    let list = &mut lists[slices.axis.index()];
+                    if slices.along {
+                        list.extend(range.map(record));
+                    } else {
+                        list.extend(range.rev().map(record));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A view with its eye at zero: f by its projection and the height of its pictures, and the half-spaces that it sees.
+pub(crate) fn view_from_eye(
+    world_from_view: &Affine3A,
+    clip_from_view: &Mat4,
+    height: f32,
+    half_spaces: Option<&[Vec4; 6]>,
+) -> TexelView {
+    let eye = Vec3::from(world_from_view.translation);
+    let mut sides = [Vec4::ZERO; 6];
+    if let Some(half_spaces) = half_spaces {
+        // What is nearer than a light's near plane casts shadows all the same.
+        for (side, plane) in sides.iter_mut().zip(&half_spaces[..4]) {
+            *side = plane.truncate().extend(plane.w + plane.truncate().dot(eye));
+        }
+    }
+    let is_orthographic = clip_from_view.w_axis.w == 1.0;
+    TexelView {
+        eye: Vec3::ZERO,
+        direction: is_orthographic.then(|| -Vec3::from(world_from_view.matrix3.z_axis)),
+        pixels: 0.5 * clip_from_view.y_axis.y.abs() * height,
+        half_spaces: sides,
+    }
+}
+
+/// A sphere that holds all facets.
+fn sphere_of(facets: &[Facet]) -> (Vec3, f32) {
+    let corners = || {
+        let both = facets.iter().flat_map(|f| [f.corners(0.0), f.corners(1.0)]);
+        both.flatten()
+    };
+    let (min, max) = corners().fold((Vec3::MAX, Vec3::MIN), |(min, max), corner| {
+        (min.min(corner), max.max(corner))
+    });
+    let centre = (min + max) * 0.5;
+    let radius = corners().map(|corner| corner.distance(centre));
+    // Height vectors keep their length in the wind, whichever way they go.
+    let heights = facets.iter().flat_map(|facet| facet.heights);
+    let tallest = heights.map(Vec3::length).fold(0.0, f32::max);
+    (centre, radius.fold(0.0, f32::max) + tallest)
+}
