@@ -2,13 +2,13 @@
 
 use core::f32::consts::{PI, TAU};
 
-use bevy::math::{UVec2, UVec3, Vec2, Vec3};
-use bevy_verdure::plants::Dice;
-use bevy_verdure::texel::build::{
+use crate::plants::Dice;
+use crate::texel::build::{
     Built, Filling, HeightField, Shape, ShapeSettings, Spreading, VolumeSettings,
     from_height_field, from_hypertexture, from_shape,
 };
-use bevy_verdure::texel::{Progress, TexelError, Topology};
+use crate::texel::{Progress, TexelError, Topology};
+use bevy::math::{UVec2, UVec3, Vec2, Vec3};
 
 /// One of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

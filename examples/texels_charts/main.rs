@@ -1,0 +1,54 @@
+//! Texels measured: what they cost, how wrong they are, and where they fail. See `docs/texels.md`.
+//!
+//! ```text
+//! cargo run --example texels_charts -- --out docs/charts
+//! cargo run --example texels_charts -- --only texels_selection --quick --out out
+//! ```
+
+mod lab;
+mod selection;
+
+use std::path::PathBuf;
+
+use bevy_verdure::lab::charts::Chart;
+use bevy_verdure::lab::{Size, parse_size};
+use clap::Parser;
+
+use lab::Lab;
+
+/// Measures texels, and draws the charts.
+#[derive(Parser)]
+struct Args {
+    /// Folder for the charts: SVG, PNG and CSV of each.
+    #[arg(long, default_value = "docs/charts")]
+    out: PathBuf,
+    /// Only those whose name contains this.
+    #[arg(long, default_value = "")]
+    only: String,
+    /// Fewer settings, views and frames.
+    #[arg(long)]
+    quick: bool,
+    /// Size of the pictures.
+    #[arg(long, default_value = "512x384", value_parser = parse_size)]
+    size: Size,
+}
+
+/// A chart of its name.
+type Experiment = (&'static str, fn(&Lab) -> Result<Chart, String>);
+
+const EXPERIMENTS: [Experiment; 1] = [("texels_selection", selection::against_settings)];
+
+fn main() -> Result<(), String> {
+    let args = Args::parse();
+    let lab = Lab {
+        quick: args.quick,
+        size: args.size,
+    };
+    for (name, chart) in EXPERIMENTS {
+        if name.contains(&args.only) {
+            chart(&lab)?.save(&args.out, name)?;
+            println!("{}", args.out.join(name).with_extension("png").display());
+        }
+    }
+    Ok(())
+}
