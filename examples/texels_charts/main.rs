@@ -5,8 +5,15 @@
 //! cargo run --example texels_charts -- --only texels_selection --quick --out out
 //! ```
 
+mod bend;
+mod error;
+mod field;
 mod lab;
+mod low_poly;
+mod march;
+mod pop;
 mod selection;
+mod shells;
 
 use std::path::PathBuf;
 
@@ -31,18 +38,28 @@ struct Args {
     /// Size of the pictures.
     #[arg(long, default_value = "512x384", value_parser = parse_size)]
     size: Size,
+    /// Folder for the pictures that are measured, to look at.
+    #[arg(long)]
+    pictures: Option<PathBuf>,
 }
 
 /// A chart of its name.
 type Experiment = (&'static str, fn(&Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 1] = [("texels_selection", selection::against_settings)];
+const EXPERIMENTS: [Experiment; 5] = [
+    ("texels_selection", selection::against_settings),
+    ("texels_error_pears", error::of_pears),
+    ("texels_error_noise", error::of_noise),
+    ("texels_bend", bend::against_angle),
+    ("texels_pop", pop::along_a_flight),
+];
 
 fn main() -> Result<(), String> {
     let args = Args::parse();
     let lab = Lab {
         quick: args.quick,
         size: args.size,
+        pictures: args.pictures,
     };
     for (name, chart) in EXPERIMENTS {
         if name.contains(&args.only) {
