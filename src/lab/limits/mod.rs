@@ -1,8 +1,8 @@
 //! Where the methods fail: experiments in plain arithmetic, without a GPU, each with its chart.
 //!
 //! An experiment drives one setting past the point at which a method is no longer right, and says by how much it is
-//! wrong then. What is measured, where it starts to fail and what the crate does there is told in `docs/limits.md`;
-//! `--example limits` draws the charts again.
+//! wrong then. What is measured, where it starts to fail and what the crate does there is told in `docs/limits.md`, and
+//! in `docs/texels_limits.md`; `--example limits` draws the charts again.
 //!
 //! | file | question |
 //! |---|---|

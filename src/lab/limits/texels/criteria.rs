@@ -67,25 +67,24 @@ pub fn measure(criterion: Criterion, ratio: f64) -> f64 {
 
 /// The chart.
 pub fn chart() -> Chart {
-    let ratios: Vec<f64> = (-8..=12)
-        .map(|i| f64::from(i) / 4.0)
-        .map(f64::exp2)
-        .collect();
-    let measured = Criterion::ALL.map(|criterion| {
-        let points = ratios
-            .iter()
-            .map(|&ratio| (ratio, measure(criterion, ratio)));
-        Series::line(criterion.name(), points)
+    // Each criterion at values of its own, for the curve is the same.
+    let ratios = |offset: usize| {
+        (0..14).map(move |i| f64::exp2(f64::from(i) * 0.375 - 2.0 + 0.125 * offset as f64))
+    };
+    let curve = (-16..=26).map(|i| {
+        let ratio = f64::exp2(0.125 * f64::from(i));
+        (ratio, expected(ratio))
     });
-    let curve = ratios.iter().map(|&ratio| (ratio, expected(ratio)));
+    let mut series = vec![Series::line("1 - 1/value", curve)];
+    for (i, criterion) in Criterion::ALL.into_iter().enumerate() {
+        let points = ratios(i).map(|ratio| (ratio, measure(criterion, ratio)));
+        series.push(Series::scatter(criterion.name(), points));
+    }
     limits::chart(
         "What the criteria forbid, against their values",
         Axis::log("value of the criterion (1: its limit)"),
         Axis::linear("share of a wall's side that shows it"),
-        measured
-            .into_iter()
-            .chain([Series::line("1 - 1/value", curve)])
-            .collect(),
+        series,
     )
 }
 
