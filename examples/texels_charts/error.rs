@@ -9,10 +9,12 @@ use bevy_verdure::prelude::*;
 use bevy_verdure::texel::build::Spreading;
 use bevy_verdure::texel::{BakedLight, silent};
 
-use super::field::{BACKGROUND, Field, SQUARES, TO_SUN, shot};
+use super::field::{BACKGROUND, Field, TO_SUN, shot};
 use super::lab::Lab;
 use super::march::Marched;
 
+/// Texels along each side.
+const SQUARES: u32 = 4;
 /// Rays along each side of a pixel of the reference.
 const SAMPLES: u32 = 3;
 
@@ -38,7 +40,7 @@ pub fn of_noise(lab: &Lab) -> Result<Chart, String> {
 fn of(lab: &Lab, pattern: Pattern, name: &str, texel: Vec2) -> Result<Chart, String> {
     let built = pattern.build(pattern.size(), Spreading::default(), &silent);
     let volume = built.map_err(|error| error.to_string())?.volume;
-    let mut field = Field::new(volume, texel)?;
+    let mut field = Field::new(volume, texel, SQUARES)?;
     let shot = shot(lab.size / 4, texel.x * SQUARES as f32);
     let marched = Marched::new(&field.volume, &field.facets, &shot, SAMPLES);
     let reference = marched.lit(&mut field.studio, BACKGROUND);
@@ -131,7 +133,8 @@ fn ways(lab: &Lab, field: &mut Field) -> Vec<Way> {
         let light = BakedLight {
             // u is x, v is −z, w is y.
             from: Vec3::new(from.x, -from.z, from.y),
-            ambient: 0.25,
+            // As bright as the scene's.
+            ambient: 0.12,
             diffuse: 0.8,
             ..default()
         };

@@ -9,27 +9,26 @@ use bevy_verdure::texel::facet::Facet;
 
 /// What is behind.
 pub const BACKGROUND: Color = Color::srgb(0.16, 0.13, 0.09);
-/// Towards the sun. With this much light nothing is too bright for eight bits: where it falls straight, four fifths of a
-/// colour come back, a quarter where it does not fall.
+/// Towards the sun. With this much light nothing is too bright for eight bits: of a colour four fifths come back from it
+/// where it falls straight, and an eighth from all sides.
 pub const TO_SUN: Vec3 = Vec3::new(0.7, 0.85, 0.35);
 const SUN: f32 = 2_500.0;
 const AMBIENT: f32 = 250.0;
-/// Texels along each side.
-pub const SQUARES: u32 = 4;
-
 /// A field, and where it stands.
 pub struct Field {
     pub studio: Studio,
     pub volume: ReferenceVolume,
     /// Sides and height of a texel, in metres.
     pub texel: Vec2,
+    /// How many there are along each side.
+    pub squares: u32,
     /// In world space.
     pub facets: Vec<Facet>,
 }
 
 impl Field {
-    /// Of a volume whose texels are so wide and high.
-    pub fn new(volume: ReferenceVolume, texel: Vec2) -> Result<Self, String> {
+    /// Of so many texels along each side, of which each is so wide and high.
+    pub fn new(volume: ReferenceVolume, texel: Vec2, squares: u32) -> Result<Self, String> {
         let mut studio = Studio::new(|app| {
             app.add_plugins(GpuClockPlugin)
                 .insert_resource(GlobalAmbientLight {
@@ -45,7 +44,7 @@ impl Field {
             },
             Transform::default().looking_to(-TO_SUN, Vec3::Y),
         ));
-        let mesh = ground(texel.x);
+        let mesh = ground(texel.x, squares);
         let surface = TexelSurface {
             thickness: texel.y,
             ..default()
@@ -55,8 +54,14 @@ impl Field {
             studio,
             volume,
             texel,
+            squares,
             facets: found.facets,
         })
+    }
+
+    /// The ground, a texel a square.
+    pub fn ground(&self) -> Mesh {
+        ground(self.texel.x, self.squares)
     }
 
     /// A volume to cover it with.
@@ -67,7 +72,7 @@ impl Field {
 
     /// Covers it with texels of a volume.
     pub fn cover(&mut self, volume: &Handle<TexelVolume>, settings: TexelSettings) -> Vec<Entity> {
-        let (ground, thickness) = (ground(self.texel.x), self.texel.y);
+        let (ground, thickness) = (self.ground(), self.texel.y);
         let world = self.studio.world();
         let mesh = world.resource_mut::<Assets<Mesh>>().add(ground);
         let volume = volume.clone();
@@ -77,9 +82,9 @@ impl Field {
     }
 }
 
-/// The ground, a texel a square.
-pub fn ground(side: f32) -> Mesh {
-    grid(SQUARES, SQUARES, Vec2::splat(side * SQUARES as f32))
+/// A level mesh, a texel a square.
+fn ground(side: f32, squares: u32) -> Mesh {
+    grid(squares, squares, Vec2::splat(side * squares as f32))
 }
 
 /// The field as one sees it who stands at its border: aslant in front, grazing behind.

@@ -9,7 +9,7 @@ use bevy::prelude::*;
 use bevy_verdure::texel::ReferenceVolume;
 use bevy_verdure::texel::color::srgb_to_linear;
 
-use super::field::{Field, SQUARES};
+use super::field::Field;
 
 /// What is merged into a vertex: sums.
 #[derive(Clone, Copy, Default)]
@@ -142,8 +142,8 @@ impl Field {
             ..default()
         };
         let look = world.resource_mut::<Assets<StandardMaterial>>().add(look);
-        let half = 0.5 * SQUARES as f32;
-        let squares = (0..SQUARES).flat_map(|row| (0..SQUARES).map(move |column| (row, column)));
+        let (count, half) = (self.squares, 0.5 * self.squares as f32);
+        let squares = (0..count).flat_map(|row| (0..count).map(move |column| (row, column)));
         let instances = squares
             .map(|(row, column)| {
                 let (x, z) = (column as f32 - half, half - row as f32);

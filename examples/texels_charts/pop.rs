@@ -25,9 +25,9 @@ fn shot(size: UVec2, degrees: f32) -> Shot {
     let (rise, level) = degrees.to_radians().sin_cos();
     let (aside, ahead) = degrees.to_radians().sin_cos();
     Shot {
-        eye: Vec3::new(level * aside, rise, level * ahead) * 3.2,
-        at: Vec3::Y * 0.4,
-        lens: Lens::Perspective(0.7),
+        eye: Vec3::new(level * aside, rise, level * ahead) * 2.6 + Vec3::Y * 0.5,
+        at: Vec3::Y * 0.5,
+        lens: Lens::Perspective(0.55),
         size,
     }
 }
@@ -36,7 +36,7 @@ fn shot(size: UVec2, degrees: f32) -> Shot {
 pub fn along_a_flight(lab: &Lab) -> Result<Chart, String> {
     let built = Pattern::Pear.build(UVec3::splat(64), Spreading::default(), &silent);
     let volume = built.map_err(|error| error.to_string())?.volume;
-    let mut field = Field::new(volume, Vec2::new(0.8, 1.0))?;
+    let mut field = Field::new(volume, Vec2::new(0.8, 1.0), 1)?;
     let camera = field.studio.camera();
     let world = field.studio.world();
     world.entity_mut(camera).insert(Msaa::Sample4);
@@ -73,7 +73,7 @@ pub fn along_a_flight(lab: &Lab) -> Result<Chart, String> {
         field.studio.world().despawn(texels[0]);
     }
     Ok(Chart {
-        title: "Neighbouring frames of a flight over pears, half a degree apart".into(),
+        title: "Neighbouring frames of a flight round a pear, half a degree apart".into(),
         subtitle: adapter_name(field.studio.world()),
         x: Axis::linear("elevation of the eye (degrees)"),
         y: Axis::linear("mean change from frame to frame (8-bit steps)"),

@@ -6,16 +6,16 @@ use bevy::prelude::*;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 use bevy_verdure::texel::{SliceAxis, SliceSet};
 
-use super::field::{Field, ground};
+use super::field::Field;
 
 impl Field {
     /// Covers the field with so many shells, lit by the normals of the volume.
     pub fn add_shells(&mut self, count: u32) -> Vec<Entity> {
         let set = SliceSet::new(&self.volume, SliceAxis::W, count);
         // u is to the right, and v away from the eye.
-        let normals = ground(1.0).count_vertices();
-        let mesh = ground(self.texel.x)
-            .with_inserted_attribute(Mesh::ATTRIBUTE_TANGENT, vec![[1.0, 0.0, 0.0, 1.0]; normals]);
+        let ground = self.ground();
+        let tangents = vec![[1.0, 0.0, 0.0, 1.0]; ground.count_vertices()];
+        let mesh = ground.with_inserted_attribute(Mesh::ATTRIBUTE_TANGENT, tangents);
         let thickness = self.texel.y;
         let world = self.studio.world();
         let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh);
