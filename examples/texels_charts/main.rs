@@ -5,7 +5,9 @@
 //! cargo run --example texels_charts -- --only texels_selection --quick --out out
 //! ```
 
+mod gains;
 mod lab;
+mod parts;
 mod selection;
 
 use std::path::PathBuf;
@@ -36,7 +38,13 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 1] = [("texels_selection", selection::against_settings)];
+const EXPERIMENTS: [Experiment; 5] = [
+    ("texels_selection", selection::against_settings),
+    ("texels_distance", selection::against_distance),
+    ("texels_gains", gains::time),
+    ("texels_memory", gains::memory),
+    ("texels_parts", parts::time),
+];
 
 fn main() -> Result<(), String> {
     let args = Args::parse();
