@@ -5,10 +5,13 @@
 //! cargo run --example texels_charts -- --only texels_selection --quick --out out
 //! ```
 
+mod depth;
 mod gains;
 mod lab;
 mod parts;
 mod selection;
+mod shadows;
+mod whole;
 
 use std::path::PathBuf;
 
@@ -38,12 +41,14 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 5] = [
+const EXPERIMENTS: [Experiment; 7] = [
     ("texels_selection", selection::against_settings),
     ("texels_distance", selection::against_distance),
+    ("texels_depth", depth::against_depth),
     ("texels_gains", gains::time),
     ("texels_memory", gains::memory),
     ("texels_parts", parts::time),
+    ("texels_shadows", shadows::against_pixels),
 ];
 
 fn main() -> Result<(), String> {

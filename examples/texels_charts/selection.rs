@@ -2,65 +2,14 @@
 
 use bevy::prelude::*;
 use bevy_verdure::lab::charts::{Axis, Chart, Point, Series};
-use bevy_verdure::lab::texel_scenes::{TexelScene, TexelStand, all_slices};
-use bevy_verdure::lab::{Shot, mean_flip};
+use bevy_verdure::lab::texel_scenes::{TexelScene, all_slices};
 use bevy_verdure::prelude::*;
 
 use super::lab::Lab;
-
-/// The criteria with some d, in e, and p, in pixels.
-fn with(depth: f32, pixels: f32, lit: bool) -> TexelSettings {
-    TexelSettings {
-        quality: TexelQuality {
-            depth,
-            pixels,
-            ..default()
-        },
-        lit,
-        ..default()
-    }
-}
+use super::whole::{Whole, aside, with};
 
 /// Whether the scene lights the texels, or they have the colours of the volume, as the paper's have.
 const LIGHTS: [(&str, bool); 2] = [("lit by the scene", true), ("colours of the volume", false)];
-
-/// A picture of all slices, which others are held against.
-struct Whole {
-    shot: Shot,
-    slices: usize,
-    picture: Vec<u8>,
-}
-
-impl Whole {
-    fn of(stand: &mut TexelStand, shot: Shot, lit: bool) -> Self {
-        let settings = all_slices(lit);
-        stand.set(settings);
-        Self {
-            slices: stand.count(&shot, &settings).slices,
-            picture: stand.photograph(&shot).rgb_bytes(),
-            shot,
-        }
-    }
-
-    fn flip(&self, picture: &[u8]) -> f64 {
-        let size = (self.shot.size.x, self.shot.size.y);
-        f64::from(mean_flip(size, &self.picture, picture))
-    }
-
-    /// How many times fewer slices some settings show, and the mean FLIP of the picture.
-    fn against(&self, stand: &mut TexelStand, settings: TexelSettings) -> (f64, f64) {
-        stand.set(settings);
-        let slices = stand.count(&self.shot, &settings).slices;
-        let fewer = self.slices as f64 / slices.max(1) as f64;
-        let flip = self.flip(&stand.photograph(&self.shot).rgb_bytes());
-        let (quality, lit) = (settings.quality, settings.lit);
-        println!(
-            "lit {lit}, d {} e, p {}: {slices} of {} slices, {fewer:.2} times fewer, FLIP {flip:.4}",
-            quality.depth, quality.pixels, self.slices
-        );
-        (fewer, flip)
-    }
-}
 
 /// Slices of `sphere` for d and p over a range, beside all of them, and the difference between the pictures.
 pub fn against_settings(lab: &Lab) -> Result<Chart, String> {
@@ -112,19 +61,6 @@ pub fn against_settings(lab: &Lab) -> Result<Chart, String> {
         y: Axis::linear("mean FLIP against all slices"),
         series,
     })
-}
-
-/// A shot turned aside by so many pixels.
-fn aside(shot: &Shot, pixels: f32) -> Shot {
-    let bevy_verdure::lab::Lens::Perspective(fov) = shot.lens else {
-        return *shot;
-    };
-    let pixel = 2.0 * (0.5 * fov).tan() / shot.size.y as f32;
-    let reach = shot.eye.distance(shot.at);
-    Shot {
-        at: shot.at + *shot.transform().right() * pixel * pixels * reach,
-        ..*shot
-    }
 }
 
 /// The same for the default settings, from near to far.
