@@ -6,14 +6,19 @@
 //! ```
 
 mod bend;
+mod depth;
 mod error;
 mod field;
+mod gains;
 mod lab;
 mod low_poly;
 mod march;
+mod parts;
 mod pop;
 mod selection;
+mod shadows;
 mod shells;
+mod whole;
 
 use std::path::PathBuf;
 
@@ -46,8 +51,14 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 5] = [
+const EXPERIMENTS: [Experiment; 11] = [
     ("texels_selection", selection::against_settings),
+    ("texels_distance", selection::against_distance),
+    ("texels_depth", depth::against_depth),
+    ("texels_gains", gains::time),
+    ("texels_memory", gains::memory),
+    ("texels_parts", parts::time),
+    ("texels_shadows", shadows::against_pixels),
     ("texels_error_pears", error::of_pears),
     ("texels_error_noise", error::of_noise),
     ("texels_bend", bend::against_angle),

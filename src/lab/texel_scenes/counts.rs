@@ -4,7 +4,9 @@ use bevy::prelude::*;
 
 use crate::lab::studio::{Lens, Shot};
 use crate::texel::facet::{Facet, slice_range};
-use crate::texel::{Choice, ReferenceVolume, TexelSettings, TexelView, VolumeMeasure, choose};
+use crate::texel::{
+    Choice, ReferenceVolume, SliceAxis, SliceSets, TexelSettings, TexelView, VolumeMeasure, choose,
+};
 
 /// What facets are drawn by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -36,14 +38,29 @@ pub fn count(
         let slices = slice_range(facet.uvs, axis, 1 << exponent).len();
         counts.facets += 1;
         counts.slices += slices;
-        counts.triangles += slices
-            * if axis == crate::texel::SliceAxis::W {
-                1
-            } else {
-                2
-            };
+        counts.triangles += slices * if axis == SliceAxis::W { 1 } else { 2 };
     }
     counts
+}
+
+/// Bytes on the device of a volume and of what covers facets: slices of all sets with their mip levels, colours and
+/// normals, uncompressed; and records and slots of facets.
+pub fn texel_bytes(facets: &[Facet], volume: &ReferenceVolume, most: u32) -> usize {
+    const RECORD: usize = 144;
+    const SLOT: usize = 56;
+    let measure = VolumeMeasure::of(volume, most);
+    let slots = |facet: &Facet| -> usize {
+        let on_facet = |axis: SliceAxis| {
+            let most = measure.most[axis.index()];
+            [most, most / 2]
+                .map(|count| slice_range(facet.uvs, axis, count).len())
+                .iter()
+                .sum::<usize>()
+        };
+        SliceAxis::ALL.map(on_facet).iter().sum()
+    };
+    let slots: usize = facets.iter().map(slots).sum();
+    SliceSets::new(volume, most).bytes() + facets.len() * RECORD + slots * SLOT
 }
 
 /// A shot as slices are chosen by.

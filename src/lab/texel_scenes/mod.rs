@@ -5,9 +5,11 @@
 //! | `patterns` | which volumes are there, of what shapes? |
 //! | [`surfaces`] | what do they cover? |
 //! | `stand` | how does a scene look with some settings? |
+//! | `full` | which triangles do texels stand for? |
 //! | `counts` | how many slices is it drawn by? |
 
 mod counts;
+mod full;
 mod patterns;
 mod stand;
 pub mod surfaces;
@@ -18,9 +20,10 @@ use clap::ValueEnum;
 use crate::texel::build::Spreading;
 use crate::texel::{TexelVolume, silent};
 
-pub use counts::{SliceCounts, count};
+pub use counts::{SliceCounts, count, texel_bytes, texel_view};
+pub use full::{full_mesh, instances};
 pub use patterns::Pattern;
-pub use stand::TexelStand;
+pub use stand::{FullMeshes, TexelStand, all_slices};
 
 /// What there is to see.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -64,15 +67,20 @@ impl TexelScene {
             .map_or_else(String::new, |value| value.get_name().into())
     }
 
-    /// What surfaces are covered with.
-    pub fn volume(self) -> Result<TexelVolume, String> {
-        let pattern = match self {
+    /// The pattern that surfaces are covered with.
+    pub const fn pattern(self) -> Pattern {
+        match self {
             Self::Pear | Self::Pears => Pattern::Pear,
             Self::Bushes => Pattern::Bush,
             Self::Noise | Self::Sphere | Self::Plane => Pattern::Noise,
             Self::Flag | Self::Fur => Pattern::Fur,
             Self::Meadow => Pattern::Grass,
-        };
+        }
+    }
+
+    /// Its volume.
+    pub fn volume(self) -> Result<TexelVolume, String> {
+        let pattern = self.pattern();
         let built = pattern.build(pattern.size(), Spreading::default(), &silent);
         Ok(built.map_err(|error| error.to_string())?.volume.into())
     }
