@@ -6,18 +6,26 @@ use std::collections::HashMap;
 use bevy::asset::RenderAssetUsages;
 use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
-use bevy_verdure::texel::ReferenceVolume;
 use bevy_verdure::texel::color::srgb_to_linear;
+use bevy_verdure::texel::{ReferenceVolume, Topology};
 
 use super::field::Field;
 
-/// What is merged into a vertex: sums.
+/// What is merged in a cell: sums.
 #[derive(Clone, Copy, Default)]
+struct Sums {
+    /// From the middle of the cell, in cells.
+    offset: Vec3,
+    normal: Vec3,
+    color: Vec3,
+    count: f32,
+}
+
+/// A vertex in (u, v, w).
 struct Vertex {
     place: Vec3,
     normal: Vec3,
     color: Vec3,
-    count: f32,
 }
 
 /// A mesh in (u, v, w).
@@ -32,15 +40,25 @@ fn merge(volume: &ReferenceVolume, cells: u32) -> Merged {
     let lengths = volume.lengths();
     let upward = (cells as f32 * lengths.z / lengths.x).ceil().max(1.0);
     let lattice = Vec3::new(cells as f32, cells as f32, upward) / size.as_vec3();
-    let (mut indices, mut merged) = (
-        HashMap::new(),
-        Merged {
-            vertices: Vec::new(),
-            triangles: Vec::new(),
-        },
-    );
+    // Cells on a border of a tiling volume are those of the next copy, so that copies meet.
+    let is_tiling = volume.topology() == Topology::Tiling;
+    let shared = |cell: IVec3| {
+        let round = cells as i32;
+        if is_tiling {
+            IVec3::new(cell.x % round, cell.y % round, cell.z)
+        } else {
+            cell
+        }
+    };
+    let mut sums: HashMap<IVec3, Sums> = HashMap::new();
+    let (mut indices, mut vertices) = (HashMap::new(), Vec::new());
+    let mut triangles: Vec<[u32; 3]> = Vec::new();
     let signed = size.as_ivec3();
-    let is_opaque = |at: IVec3| {
+    let is_opaque = |mut at: IVec3| {
+        if is_tiling {
+            let round = at.rem_euclid(signed);
+            at = round.with_z(at.z);
+        }
         at.cmpge(IVec3::ZERO).all()
             && at.cmplt(signed).all()
             && volume.is_opaque(at.x as u32, at.y as u32, at.z as u32)
@@ -61,11 +79,8 @@ fn merge(volume: &ReferenceVolume, cells: u32) -> Merged {
         for (axis, sign) in (0..3).flat_map(|axis| [(axis, -1), (axis, 1)]) {
             let mut out = IVec3::ZERO;
             out[axis] = sign;
-            // The bottom stands on the ground, and tiles go on beyond their sides.
-            let is_border = (at + out).cmplt(IVec3::ZERO).any()
-                || (at + out).x >= signed.x
-                || (at + out).y >= signed.y;
-            if is_opaque(at + out) || is_border {
+            // The bottom stands on the ground.
+            if is_opaque(at + out) || (at + out).z < 0 {
                 continue;
             }
             let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -74,19 +89,17 @@ fn merge(volume: &ReferenceVolume, cells: u32) -> Merged {
                 corner[axis] += i32::from(sign > 0);
                 corner[first] += i;
                 corner[second] += j;
-                // Corners on a border of two cells belong to the lower one.
-                let place = corner.as_vec3();
-                let cell = (place * lattice - 1e-3).floor().max(Vec3::ZERO).as_uvec3();
-                let index = *indices.entry(cell).or_insert_with(|| {
-                    merged.vertices.push(Vertex::default());
-                    merged.vertices.len() as u32 - 1
-                });
-                let vertex = &mut merged.vertices[index as usize];
-                vertex.place += place / size.as_vec3();
-                vertex.normal += normal;
-                vertex.color += color;
-                vertex.count += 1.0;
-                index
+                let place = corner.as_vec3() * lattice;
+                let cell = place.round().as_ivec3();
+                let sums = sums.entry(shared(cell)).or_default();
+                sums.offset += place - cell.as_vec3();
+                sums.normal += normal;
+                sums.color += color;
+                sums.count += 1.0;
+                *indices.entry(cell).or_insert_with(|| {
+                    vertices.push(cell);
+                    vertices.len() as u32 - 1
+                })
             });
             let [a, b, c, d] = corners;
             let quads = if sign > 0 {
@@ -94,18 +107,29 @@ fn merge(volume: &ReferenceVolume, cells: u32) -> Merged {
             } else {
                 [[a, c, b], [a, d, c]]
             };
-            merged.triangles.extend(quads);
+            triangles.extend(quads);
         }
     }
     // Each once, however its corners are counted, and none without area.
     let mut seen = std::collections::HashSet::new();
-    merged.triangles.retain(|triangle| {
+    triangles.retain(|triangle| {
         let [a, b, c] = *triangle;
         let mut sorted = *triangle;
         sorted.sort_unstable();
         a != b && b != c && a != c && seen.insert(sorted)
     });
-    merged
+    let vertices = vertices.into_iter().map(|cell| {
+        let sums = &sums[&shared(cell)];
+        Vertex {
+            place: (cell.as_vec3() + sums.offset / sums.count) / (lattice * size.as_vec3()),
+            normal: sums.normal,
+            color: sums.color / sums.count,
+        }
+    });
+    Merged {
+        vertices: vertices.collect(),
+        triangles,
+    }
 }
 
 impl Field {
@@ -117,12 +141,12 @@ impl Field {
         let place = |at: Vec3| Vec3::new(at.x * side, at.z * height, -at.y * side);
         let (mut positions, mut normals, mut colors) = (Vec::new(), Vec::new(), Vec::new());
         for vertex in &merged.vertices {
-            positions.push(place(vertex.place / vertex.count));
+            positions.push(place(vertex.place));
             // By metres of the volume's box, as gradients are.
             let n = vertex.normal * lengths;
             let normal = Vec3::new(n.x / side, n.z / height, -n.y / side);
             normals.push(normal.normalize_or(Vec3::Y));
-            colors.push((vertex.color / vertex.count).extend(1.0));
+            colors.push(vertex.color.extend(1.0));
         }
         let triangles = merged.triangles.len();
         let mesh = Mesh::new(
