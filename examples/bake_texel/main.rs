@@ -7,7 +7,6 @@
 //! cargo run --example bake_texel -- show out/pear.texel.ron --preview out/pear.png
 //! ```
 
-mod patterns;
 mod preview;
 mod sources;
 
@@ -17,12 +16,11 @@ use std::time::Instant;
 
 use bevy::math::{UVec3, Vec3};
 use bevy_verdure::lab::parse_vec3;
+use bevy_verdure::lab::texel_scenes::Pattern;
 use bevy_verdure::texel::build::{Built, Spreading};
 use bevy_verdure::texel::file::{load, save};
 use bevy_verdure::texel::{BuildStep, ReferenceVolume, SliceAxis, SliceSets, Topology, silent};
 use clap::{Args, Parser, Subcommand};
-
-use patterns::Pattern;
 
 /// Bakes a reference volume.
 #[derive(Parser)]

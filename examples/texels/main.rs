@@ -7,26 +7,23 @@
 
 #[path = "../common/mod.rs"]
 mod common;
-#[path = "../bake_texel/patterns.rs"]
-mod patterns;
-mod scene;
-mod surfaces;
 
 use bevy::core_pipeline::prepass::DepthPrepass;
 use bevy::light::NotShadowCaster;
 use bevy::prelude::*;
 use bevy_verdure::lab::CommonArgs;
+use bevy_verdure::lab::texel_scenes::{TexelScene, surfaces};
 use bevy_verdure::prelude::*;
 use clap::Parser;
 
-use scene::Scene;
+use common::stage::Stage;
 
 /// Shows texels.
 #[derive(Parser)]
 struct Args {
     /// What to show.
     #[arg(value_enum)]
-    scene: Scene,
+    scene: TexelScene,
     /// Where the eye stands, instead of where the scene is best seen from.
     #[arg(long, value_parser = bevy_verdure::lab::parse_vec3, allow_hyphen_values = true, value_name = "X,Y,Z")]
     eye: Option<Vec3>,
@@ -83,9 +80,14 @@ fn run(args: &Args) -> Result<(), String> {
         ..default()
     };
     let volume = scene.volume()?;
-    let mut stage = scene.stage();
-    stage.eye = args.eye.unwrap_or(stage.eye);
-    stage.at = args.at.unwrap_or(stage.at);
+    let (eye, at) = scene.view();
+    let stage = Stage {
+        eye: args.eye.unwrap_or(eye),
+        at: args.at.unwrap_or(at),
+        centre: at.with_x(0.0).with_z(0.0),
+        shadows: 20.0,
+        haze: (30.0, 120.0),
+    };
     let (turns, unshadowed) = (args.turns, args.unshadowed);
     let wind = Wind::new(Vec3::X * args.wind);
     let (prepass, plain) = (args.prepass, args.plain);
@@ -115,7 +117,7 @@ fn run(args: &Args) -> Result<(), String> {
                             settings,
                             surface.place,
                         ));
-                        if scene == Scene::Flag {
+                        if scene == TexelScene::Flag {
                             entity.insert(LiveTexels);
                         }
                         if unshadowed {

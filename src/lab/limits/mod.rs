@@ -1,8 +1,8 @@
 //! Where the methods fail: experiments in plain arithmetic, without a GPU, each with its chart.
 //!
 //! An experiment drives one setting past the point at which a method is no longer right, and says by how much it is
-//! wrong then. What is measured, where it starts to fail and what the crate does there is told in `docs/limits.md`;
-//! `--example limits` draws the charts again.
+//! wrong then. What is measured, where it starts to fail and what the crate does there is told in `docs/limits.md`, and
+//! in `docs/texels_limits.md`; `--example limits` draws the charts again.
 //!
 //! | file | question |
 //! |---|---|
@@ -14,6 +14,7 @@
 //! | [`misfit`] | how far apart are both sides' u at a mitre? |
 //! | [`thickness`] | what happens to a shell thicker than the bend has room for? |
 //! | [`inside`] | does an eye inside the shell still see the relief? |
+//! | [`texels`] | when do slices gape, and filling fail? |
 //!
 //! `limb` has the limbs that these are tried on, `shell` marches a ray through the shell as §3 does, `random` rolls the
 //! dice.
@@ -28,6 +29,7 @@ pub mod seams;
 mod shell;
 pub mod steps;
 pub mod swimming;
+pub mod texels;
 pub mod thickness;
 
 use super::charts::{Axis, Chart, Series};
@@ -36,7 +38,7 @@ use super::charts::{Axis, Chart, Series};
 pub type Experiment = (&'static str, fn() -> Chart);
 
 /// All experiments.
-pub const EXPERIMENTS: [Experiment; 9] = [
+pub const EXPERIMENTS: [Experiment; 12] = [
     ("limits_seams", seams::chart),
     ("limits_precision", precision::chart),
     ("limits_lost_rays", precision::lost_rays_chart),
@@ -46,6 +48,9 @@ pub const EXPERIMENTS: [Experiment; 9] = [
     ("limits_misfit", misfit::chart),
     ("limits_thickness", thickness::chart),
     ("limits_inside", inside::chart),
+    ("texels_gaps", texels::gaps::chart),
+    ("texels_criteria", texels::criteria::chart),
+    ("texels_filling", texels::filling::chart),
 ];
 
 /// A chart of what is the same on every machine.

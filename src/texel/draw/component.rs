@@ -5,6 +5,9 @@ use bevy::prelude::*;
 
 use super::super::asset::TexelVolume;
 use super::super::choose::TexelQuality;
+use super::super::facet::SurfaceFacets;
+use super::geometry::facets;
+use super::surface_mesh::TexelSurfaceError;
 
 /// Height vectors of a mesh (§2.1): a mesh attribute, in the mesh's space, from each vertex to the top of the texels
 /// there. Where a mesh has none, they are as long as a surface's [`thickness`](TexelSurface::thickness) and follow
@@ -54,6 +57,16 @@ impl Default for TexelSurface {
             volume: Handle::default(),
             thickness: 1.0,
         }
+    }
+}
+
+impl TexelSurface {
+    /// The facets that carry its texels on a mesh, in the mesh's space, and those that carry none.
+    ///
+    /// # Errors
+    /// When the mesh carries no texels at all.
+    pub fn facets(&self, mesh: &Mesh) -> Result<SurfaceFacets, TexelSurfaceError> {
+        facets(mesh, self.thickness, None)
     }
 }
 

@@ -56,10 +56,8 @@ pub enum FacetFault {
         "a height vector lies in the triangle or leads to its back: bend it to the side of the normal"
     )]
     Folded,
-    /// The height vectors cross.
-    #[error(
-        "height vectors cross, so that the top of the texels is turned over: shorten or straighten them"
-    )]
+    /// The height vectors cross, so that the triangle at some height has no area, or is turned over.
+    #[error("height vectors cross, so that texels are turned over: shorten or straighten them")]
     Crossed,
 }
 
@@ -126,10 +124,28 @@ impl Facet {
         if self.heights.iter().any(|height| height.dot(normal) <= 0.0) {
             return Err(FacetFault::Folded);
         }
-        if doubled_area(self.corners(1.0)).dot(normal) <= 0.0 {
+        if self.least_area(normal) <= 0.0 {
             return Err(FacetFault::Crossed);
         }
         Ok(())
+    }
+
+    /// The least area that the triangle has at any height, seen along the normal, times twice the length of that. At the
+    /// top alone vectors that meet half way would go unseen: beyond, all three corners have changed sides, and the area
+    /// is positive again.
+    fn least_area(&self, normal: Vec3) -> f32 {
+        let [e1, e2] = [1, 2].map(|i| self.positions[i] - self.positions[0]);
+        let [k1, k2] = [1, 2].map(|i| self.heights[i] - self.heights[0]);
+        // (e₁ + w·k₁) × (e₂ + w·k₂), by powers of w.
+        let [c0, c1, c2] =
+            [e1.cross(e2), k1.cross(e2) + e1.cross(k2), k1.cross(k2)].map(|area| area.dot(normal));
+        // Least where the parabola turns, if it opens upward, or else at an end; at w = 0 it is not.
+        let w = if c2 > 0.0 {
+            (-0.5 * c1 / c2).clamp(0.0, 1.0)
+        } else {
+            1.0
+        };
+        c0 + w * (c1 + w * c2)
     }
 }
 

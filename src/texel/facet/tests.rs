@@ -1,6 +1,6 @@
 //! Slices of facets: whole, without cracks, in any mapping.
 
-use bevy::math::{Vec2, Vec3};
+use bevy::math::{Quat, Vec2, Vec3};
 use proptest::prelude::*;
 
 use super::super::axis::SliceAxis;
@@ -216,6 +216,25 @@ fn facets_that_carry_no_texels_are_told_apart() {
         ];
     });
     assert_eq!(crossed, Err(FacetFault::Crossed));
+    // All meet in a point below the top, or pass each other there: the triangle at the top is a triangle again.
+    let place =
+        |f: &Facet, w: f32, top: [Vec3; 3]| [0, 1, 2].map(|i| (top[i] - f.positions[i]) / w);
+    let apex = Vec3::new(0.4, 0.3, 0.5);
+    for (w, expected) in [(0.9, Err(FacetFault::Crossed)), (1.1, Ok(()))] {
+        let found = with(&|f| f.heights = place(f, w, [apex; 3]));
+        assert_eq!(found, expected, "{w}");
+    }
+    let lifted = |f: &Facet, turns: f32| {
+        let turn = Quat::from_rotation_z(turns * core::f32::consts::PI);
+        f.positions.map(|at| apex + turn * (at - apex.with_z(0.0)))
+    };
+    for (turns, expected) in [(0.8, Ok(())), (1.0, Err(FacetFault::Crossed))] {
+        let found = with(&|f| {
+            f.positions = f.positions.map(|at| at.with_z(0.0));
+            f.heights = place(f, 1.0, lifted(f, turns));
+        });
+        assert_eq!(found, expected, "{turns}");
+    }
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod passes;
+mod selection;
 mod steady;
 mod twins;
 

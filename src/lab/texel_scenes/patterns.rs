@@ -2,13 +2,14 @@
 
 use core::f32::consts::{PI, TAU};
 
-use bevy::math::{UVec2, UVec3, Vec2, Vec3};
-use bevy_verdure::plants::Dice;
-use bevy_verdure::texel::build::{
+use crate::plants::Dice;
+use crate::texel::build::{
     Built, Filling, HeightField, Shape, ShapeSettings, Spreading, VolumeSettings,
     from_height_field, from_hypertexture, from_shape,
 };
-use bevy_verdure::texel::{Progress, TexelError, Topology};
+use crate::texel::color::srgb_to_linear;
+use crate::texel::{Progress, TexelError, Topology};
+use bevy::math::{UVec2, UVec3, Vec2, Vec3};
 
 /// One of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,8 +65,8 @@ impl Pattern {
             }
             Self::Bush => from_shape(&bush(), &leaves(None, Topology::Isolated), progress),
             Self::Grass => {
-                let bounds = [Vec3::ZERO, Vec3::new(1.0, 1.0, 0.35)];
-                from_shape(&grass(), &leaves(Some(bounds), Topology::Tiling), progress)
+                let settings = leaves(Some(GRASS_BOX), Topology::Tiling);
+                from_shape(&grass(), &settings, progress)
             }
             Self::Noise => from_height_field(
                 &noise(size.truncate()),
@@ -76,6 +77,50 @@ impl Pattern {
         }
     }
 }
+
+impl Pattern {
+    /// Whether it is leaves, and not solid.
+    pub(super) const fn is_open(self) -> bool {
+        matches!(self, Self::Bush | Self::Grass)
+    }
+
+    /// The triangles that it is built of, and the box that is sliced, if it is not the shape's own. Fur has none.
+    pub(super) fn shape(self, size: UVec3) -> Option<(Shape, Option<[Vec3; 2]>)> {
+        match self {
+            Self::Pear => Some((pear(), None)),
+            Self::Bush => Some((bush(), None)),
+            Self::Grass => Some((grass(), Some(GRASS_BOX))),
+            Self::Noise => {
+                let field = triangulated(&noise(size.truncate()));
+                Some((field, Some([Vec3::ZERO, Vec3::ONE])))
+            }
+            Self::Fur => None,
+        }
+    }
+}
+
+/// A height field as triangles in texture space, with a vertex in the middle of each pixel.
+fn triangulated(field: &HeightField) -> Shape {
+    let mut shape = Shape::default();
+    let size = field.size;
+    for (i, (height, color)) in (0..).zip(field.heights.iter().zip(&field.colors)) {
+        let pixel = UVec2::new(i % size.x, i / size.x).as_vec2();
+        shape
+            .positions
+            .push(((pixel + 0.5) / size.as_vec2()).extend(*height));
+        let linear = color.map(|byte| srgb_to_linear(f32::from(byte) / 255.0));
+        shape.colors.push(Vec3::from(linear).extend(1.0));
+    }
+    for (x, y) in (0..size.y - 1).flat_map(|y| (0..size.x - 1).map(move |x| (x, y))) {
+        let a = y * size.x + x;
+        let c = a + size.x;
+        shape.triangles.extend([[a, a + 1, c + 1], [a, c + 1, c]]);
+    }
+    shape
+}
+
+/// Grass tiles, and leans over this box.
+const GRASS_BOX: [Vec3; 2] = [Vec3::ZERO, Vec3::new(1.0, 1.0, 0.35)];
 
 /// A solid of revolution with a stalk.
 fn pear() -> Shape {

@@ -1,18 +1,33 @@
-//! The scenes: which volume, on what, seen from where.
+//! Scenes of texels, those of the paper's pictures (§6) and more: which volume, on what, seen from where.
+//!
+//! | file | question |
+//! |---|---|
+//! | `patterns` | which volumes are there, of what shapes? |
+//! | [`surfaces`] | what do they cover? |
+//! | `stand` | how does a scene look with some settings? |
+//! | `full` | which triangles do texels stand for? |
+//! | `counts` | how many slices is it drawn by? |
+
+mod counts;
+mod full;
+mod patterns;
+mod stand;
+pub mod surfaces;
 
 use bevy::prelude::*;
-use bevy_verdure::texel::TexelVolume;
-use bevy_verdure::texel::build::Spreading;
-use bevy_verdure::texel::silent;
 use clap::ValueEnum;
 
-use crate::common::stage::Stage;
-use crate::patterns::Pattern;
-use crate::surfaces;
+use crate::texel::build::Spreading;
+use crate::texel::{TexelVolume, silent};
+
+pub use counts::{SliceCounts, count, texel_bytes, texel_view};
+pub use full::{full_mesh, instances};
+pub use patterns::Pattern;
+pub use stand::{FullMeshes, TexelStand, all_slices};
 
 /// What there is to see.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Scene {
+pub enum TexelScene {
     /// A texel of 64³, and two that overlap (§6, Figure 10).
     Pear,
     /// 96 of them on a sphere of 192 triangles (Figure 11, left).
@@ -35,36 +50,44 @@ pub enum Scene {
 
 /// A surface to be covered.
 pub struct Covered {
+    /// With texture coordinates of a texel a square.
     pub mesh: Mesh,
+    /// Length of the height vectors, where the mesh has none.
     pub thickness: f32,
+    /// Where it is.
     pub place: Transform,
     /// Of the surface itself, if it is drawn.
     pub color: Option<Color>,
 }
 
-impl Scene {
+impl TexelScene {
     /// Its name on the command line.
     pub fn name(self) -> String {
         self.to_possible_value()
             .map_or_else(String::new, |value| value.get_name().into())
     }
 
-    /// What surfaces are covered with.
-    pub fn volume(self) -> Result<TexelVolume, String> {
-        let pattern = match self {
+    /// The pattern that surfaces are covered with.
+    pub const fn pattern(self) -> Pattern {
+        match self {
             Self::Pear | Self::Pears => Pattern::Pear,
             Self::Bushes => Pattern::Bush,
             Self::Noise | Self::Sphere | Self::Plane => Pattern::Noise,
             Self::Flag | Self::Fur => Pattern::Fur,
             Self::Meadow => Pattern::Grass,
-        };
+        }
+    }
+
+    /// Its volume.
+    pub fn volume(self) -> Result<TexelVolume, String> {
+        let pattern = self.pattern();
         let built = pattern.build(pattern.size(), Spreading::default(), &silent);
         Ok(built.map_err(|error| error.to_string())?.volume.into())
     }
 
-    /// Where it is seen from.
-    pub fn stage(self) -> Stage {
-        let (eye, at) = match self {
+    /// Where it is seen from: the eye, and what it looks at.
+    pub fn view(self) -> (Vec3, Vec3) {
+        match self {
             Self::Pear => (Vec3::new(0.6, 1.6, 3.2), Vec3::new(0.0, 0.45, 0.0)),
             Self::Pears | Self::Sphere | Self::Fur => (Vec3::new(0.0, 1.9, 4.6), Vec3::Y * 1.3),
             Self::Flag => (Vec3::new(0.4, 1.9, 3.4), Vec3::new(0.0, 1.3, 0.0)),
@@ -72,13 +95,6 @@ impl Scene {
             Self::Noise => (Vec3::new(0.0, 1.5, 3.0), Vec3::Y * 0.1),
             Self::Plane => (Vec3::new(0.0, 2.4, 6.5), Vec3::ZERO),
             Self::Meadow => (Vec3::new(0.0, 1.8, 7.0), Vec3::new(0.0, 0.9, 0.0)),
-        };
-        Stage {
-            eye,
-            at,
-            centre: at.with_x(0.0).with_z(0.0),
-            shadows: 20.0,
-            haze: (30.0, 120.0),
         }
     }
 

@@ -2,11 +2,11 @@
 
 use core::f32::consts::{PI, TAU};
 
+use crate::plants::Dice;
+use crate::texel::ATTRIBUTE_HEIGHT_VECTOR;
 use bevy::asset::RenderAssetUsages;
 use bevy::mesh::{Indices, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::*;
-use bevy_verdure::plants::Dice;
-use bevy_verdure::texel::ATTRIBUTE_HEIGHT_VECTOR;
 
 /// A mesh of vertices in rows and columns, of which each square carries a texel.
 fn lattice(columns: u32, rows: u32, vertex: impl Fn(u32, u32) -> (Vec3, Vec3)) -> Mesh {

@@ -1,0 +1,96 @@
+//! How many slices a view shows: what the vertex shader chooses, counted on the CPU.
+
+use bevy::prelude::*;
+
+use crate::lab::studio::{Lens, Shot};
+use crate::texel::facet::{Facet, slice_range};
+use crate::texel::{
+    Choice, ReferenceVolume, SliceAxis, SliceSets, TexelSettings, TexelView, VolumeMeasure, choose,
+};
+
+/// What facets are drawn by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SliceCounts {
+    /// Facets that may be seen.
+    pub facets: usize,
+    /// Slices on them: a line of a facet in each case, or a triangle.
+    pub slices: usize,
+    /// Triangles of these slices: two a slice, one where slices are parallel to the surface.
+    pub triangles: usize,
+}
+
+/// Counts what a view shows of facets in world space, apart from what fades in and out.
+pub fn count(
+    facets: &[Facet],
+    volume: &ReferenceVolume,
+    shot: &Shot,
+    settings: &TexelSettings,
+) -> SliceCounts {
+    let measure = VolumeMeasure::of(volume, settings.most_slices);
+    let view = texel_view(shot);
+    let mut counts = SliceCounts::default();
+    for facet in facets {
+        let Choice::Slices { axis, exponent, .. } =
+            choose(facet, &measure, &view, &settings.quality)
+        else {
+            continue;
+        };
+        let slices = slice_range(facet.uvs, axis, 1 << exponent).len();
+        counts.facets += 1;
+        counts.slices += slices;
+        counts.triangles += slices * if axis == SliceAxis::W { 1 } else { 2 };
+    }
+    counts
+}
+
+/// Bytes on the device of a volume and of what covers facets: slices of all sets with their mip levels, colours and
+/// normals, uncompressed; and records and slots of facets.
+pub fn texel_bytes(facets: &[Facet], volume: &ReferenceVolume, most: u32) -> usize {
+    const RECORD: usize = 144;
+    const SLOT: usize = 56;
+    let measure = VolumeMeasure::of(volume, most);
+    let slots = |facet: &Facet| -> usize {
+        let on_facet = |axis: SliceAxis| {
+            let most = measure.most[axis.index()];
+            [most, most / 2]
+                .map(|count| slice_range(facet.uvs, axis, count).len())
+                .iter()
+                .sum::<usize>()
+        };
+        SliceAxis::ALL.map(on_facet).iter().sum()
+    };
+    let slots: usize = facets.iter().map(slots).sum();
+    SliceSets::new(volume, most).bytes() + facets.len() * RECORD + slots * SLOT
+}
+
+/// A shot as slices are chosen by.
+pub fn texel_view(shot: &Shot) -> TexelView {
+    let transform = shot.transform();
+    let forward = *transform.forward();
+    let size = shot.size.as_vec2();
+    let mut half_spaces = [Vec4::ZERO; 6];
+    let (direction, pixels) = match shot.lens {
+        Lens::Perspective(fov) => {
+            let tan = Vec2::new((0.5 * fov).tan() * size.x / size.y, (0.5 * fov).tan());
+            let sides = [
+                (*transform.right(), tan.x),
+                (*transform.left(), tan.x),
+                (*transform.up(), tan.y),
+                (*transform.down(), tan.y),
+            ];
+            for (half_space, (side, tan)) in half_spaces.iter_mut().zip(sides) {
+                let normal = (forward * tan + side).normalize();
+                *half_space = normal.extend(-normal.dot(shot.eye));
+            }
+            (None, 0.5 * size.y / (0.5 * fov).tan())
+        }
+        // All of it is counted.
+        Lens::Orthographic(height) => (Some(forward), size.y / height),
+    };
+    TexelView {
+        eye: shot.eye,
+        direction,
+        pixels,
+        half_spaces,
+    }
+}

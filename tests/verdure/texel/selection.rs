@@ -1,0 +1,84 @@
+//! What the criteria save, and what texels stand for: the quick form of `texels_charts`.
+
+use bevy::prelude::*;
+use bevy_verdure::lab::texel_scenes::{TexelScene, TexelStand, all_slices};
+use bevy_verdure::lab::{Lens, Shot, mean_flip};
+use bevy_verdure::prelude::*;
+
+const SIZE: UVec2 = UVec2::new(160, 120);
+
+fn shot(scene: TexelScene) -> Shot {
+    let (eye, at) = scene.view();
+    Shot {
+        eye,
+        at,
+        lens: Lens::Perspective(core::f32::consts::FRAC_PI_4),
+        size: SIZE,
+    }
+}
+
+fn flip(reference: &[u8], picture: &[u8]) -> f32 {
+    mean_flip((SIZE.x, SIZE.y), reference, picture)
+}
+
+#[test]
+fn wider_gaps_between_slices_save_slices_and_cost_error() {
+    let scene = TexelScene::Sphere;
+    let mut stand = TexelStand::open(scene).expect("the scene is built");
+    let shot = shot(scene);
+    let mut look = |settings: TexelSettings| {
+        stand.set(settings);
+        let slices = stand.count(&shot, &settings).slices;
+        (slices, stand.photograph(&shot).rgb_bytes())
+    };
+    let (all, reference) = look(all_slices(false));
+    let mut before = (all, 0.0);
+    for pixels in [0.5, 2.0, 8.0] {
+        let quality = TexelQuality {
+            pixels,
+            ..default()
+        };
+        let (slices, picture) = look(TexelSettings {
+            quality,
+            ..all_slices(false)
+        });
+        let error = flip(&reference, &picture);
+        println!("p {pixels}: {slices} of {all} slices, FLIP {error:.4}");
+        assert!(slices < before.0 && error > before.1, "{pixels} {before:?}");
+        before = (slices, error);
+    }
+    let (slices, _) = look(TexelSettings::default());
+    assert!(5 * slices <= all, "{slices} of {all}");
+}
+
+#[test]
+fn texels_look_like_the_triangles_that_they_stand_for() {
+    let scene = TexelScene::Pears;
+    let mut stand = TexelStand::open(scene).expect("the scene is built");
+    let shot = shot(scene);
+    let full = stand.put_up_full_meshes().expect("pears have triangles");
+    assert_eq!(full.triangles, 96 * 992);
+    let mut look = |texels: bool, triangles: bool| {
+        let groups = [(&stand.surfaces, texels), (&full.entities, triangles)];
+        for (entities, shown) in groups {
+            let visibility = if shown {
+                Visibility::Inherited
+            } else {
+                Visibility::Hidden
+            };
+            for entity in entities {
+                stand.studio.world().entity_mut(*entity).insert(visibility);
+            }
+        }
+        stand.studio.headless.step();
+        stand
+            .studio
+            .photograph(&shot, bevy_verdure::lab::SKY)
+            .rgb_bytes()
+    };
+    let (triangles, texels, neither) = (look(false, true), look(true, false), look(false, false));
+    let (error, emptiness) = (flip(&triangles, &texels), flip(&triangles, &neither));
+    println!("texels {error:.4}, nothing {emptiness:.4}");
+    // Instances are turned and stretched, where texels bend with the surface; outlines differ by a pixel or two.
+    assert!(error < 0.5 * emptiness, "{error} {emptiness}");
+}
