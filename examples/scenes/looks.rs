@@ -1,7 +1,7 @@
 //! What each kind of surface looks like, by the stored maps of `assets/plants`: with relief, or with normal maps of it.
 
 use std::f32::consts::TAU;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use bevy::asset::RenderAssetUsages;
@@ -64,7 +64,8 @@ impl Looks {
         bare.base_color_texture = color(surface).map_err(told).ok().map(|i| images.add(i));
         let mut smooth = bare.clone();
         let mut carved = None;
-        if let Some((thickness, heights)) = finish.thickness.zip(heights(surface)) {
+        let relief = finish.thickness.and_then(|t| Some((t, heights(surface)?)));
+        if let Some((thickness, heights)) = relief {
             smooth.normal_map_texture =
                 Some(images.add(normals(&heights, thickness, finish.length)));
             let map = images.add(height_image(&heights));
@@ -96,7 +97,7 @@ impl Looks {
 fn file(surface: Surface, map: &str) -> PathBuf {
     let known = SURFACES.iter().find(|(kind, _)| *kind == surface);
     let name = known.map_or("unknown", |(_, name)| name);
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("assets/plants/{name}_{map}.png"))
+    bevy_verdure::lab::checkout().join(format!("assets/plants/{name}_{map}.png"))
 }
 
 fn open(surface: Surface, map: &str) -> Result<image::DynamicImage, String> {

@@ -11,6 +11,9 @@ use bevy_verdure::lab::{GeometryError, Timing};
 use super::lab::Lab;
 use super::plan::Plan;
 
+/// Finer polygons are smaller than pixels.
+const SUBDIVISIONS: u32 = 5;
+
 /// A setting that is turned through its values.
 struct Knob {
     name: &'static str,
@@ -95,7 +98,7 @@ fn knobs(plan: &Plan) -> Vec<Knob> {
         ),
         knob(
             "polygons",
-            (0..=plan.subdivisions)
+            (0..=plan.subdivisions.min(SUBDIVISIONS))
                 .map(|subdivisions| {
                     let relief = true;
                     let value = Rival::Polygons {

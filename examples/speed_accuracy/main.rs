@@ -17,6 +17,7 @@ mod common;
 mod crowd;
 #[path = "../dancing_cacti/dance.rs"]
 mod dance;
+mod errors;
 mod figures;
 mod growth;
 mod knobs;
@@ -67,6 +68,8 @@ struct Args {
 enum Part {
     /// Table 1.
     Table,
+    /// Error of the default settings, scene by scene.
+    Errors,
     /// Error against time.
     Knobs,
     /// Cost against segments.
@@ -89,6 +92,10 @@ fn run(args: &Args) -> Result<(), String> {
     make(&args.out)?;
     let mut lab = Lab::open();
     println!("{}", lab.adapter);
+    if wants(Part::Errors) {
+        let chart = errors::of_defaults(&mut lab, &plan)?;
+        chart.save(&args.out, "errors")?;
+    }
     if wants(Part::Knobs) {
         knobs::measure(&mut lab, &plan)?.save(&args.out)?;
     }

@@ -49,7 +49,7 @@ impl Plan {
             size: UVec2::new(1024, 768),
             scenes: Scene::ALL.to_vec(),
             race: Race::default(),
-            subdivisions: 5,
+            subdivisions: 7,
             limit: 256 << 20,
             steps: &[4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256],
             bisections: &[0, 1, 2, 3, 4, 5, 6, 8, 10],

@@ -24,7 +24,7 @@ const SAME: f32 = 0.002;
 const ALIKE: f32 = 0.03;
 
 fn golden(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+    bevy_verdure::lab::checkout()
         .join("tests/golden")
         .join(format!("{name}.png"))
 }

@@ -105,7 +105,7 @@ fn maps_are_the_same_every_time() {
 
 #[test]
 fn the_stored_files_are_what_is_painted() {
-    let dir = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/plants");
+    let dir = crate::lab::checkout().join("assets/plants");
     for ((_, name), maps) in SURFACES.iter().zip(&*PAINTED) {
         compare(&dir, name, maps, 2).unwrap();
     }
@@ -116,7 +116,7 @@ fn the_stored_files_are_what_is_painted() {
 
 #[test]
 fn a_file_that_is_not_what_is_painted_is_named() {
-    let dir = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/plants");
+    let dir = crate::lab::checkout().join("assets/plants");
     let mut rope = Maps::paint(Surface::Rope);
     rope.color[64 * 3 + 5][1] ^= 0x80;
     let error = compare(&dir, "rope", &rope, 2).unwrap_err().to_string();
