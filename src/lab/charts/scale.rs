@@ -109,7 +109,16 @@ impl Span {
     pub fn tick_label(&self, tick: f64) -> String {
         let size = tick.abs();
         if size != 0.0 && !(1e-3..1e4).contains(&size) {
-            return format!("{tick:.0e}");
+            let short = format!("{tick:.0e}");
+            // Ticks are multiples of 1, 2 or 5, and those above ten steps have two digits.
+            let is_exact = short
+                .parse::<f64>()
+                .is_ok_and(|rounded| (rounded - tick).abs() < 1e-6 * size);
+            return if is_exact {
+                short
+            } else {
+                format!("{tick:.1e}")
+            };
         }
         // As many decimals as the tick has, once what binary fractions add is taken off.
         format!("{}", (tick * 1e6).round() / 1e6)
@@ -159,6 +168,13 @@ mod tests {
         ];
         assert_eq!(labels(&span), expected);
         assert_eq!((span.at(0.0), span.at(180.0)), (Some(0.0), Some(1.0)));
+    }
+
+    #[test]
+    fn ticks_beyond_what_is_written_out_differ() {
+        let span = span(&Axis::linear(""), &[0.0, 18_000.0]);
+        let labels = labels(&span);
+        assert!(labels.contains(&"1.2e4".into()) && labels.contains(&"1e4".into()));
     }
 
     #[test]
