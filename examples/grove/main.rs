@@ -8,6 +8,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod keys;
+#[path = "../common/rosette.rs"]
+mod rosette;
 mod trees;
 mod walk;
 

@@ -1,16 +1,10 @@
-//! The recorded walk of 2,600 frames, past and through the grove at eye height.
-
-use core::f32::consts::TAU;
+//! Where on the recorded walk the eye is.
 
 use bevy::prelude::*;
 
 use super::common::MainCamera;
+use super::rosette::{self, FRAMES};
 use super::trees::radius;
-
-/// Frames of the walk, as many as the paper's.
-pub const FRAMES: usize = 2600;
-/// Height of the eye, in metres.
-const EYE: f32 = 1.7;
 
 /// Where the walk is.
 #[derive(Resource, Clone, Copy)]
@@ -19,7 +13,7 @@ pub struct Walk {
     pub frame: usize,
     stride: usize,
     /// Radius of the grove, in metres.
-    radius: f32,
+    grove: f32,
     /// Whether the eye stands still.
     pub stands: bool,
 }
@@ -29,24 +23,14 @@ impl Walk {
         Self {
             frame: frame % FRAMES,
             stride,
-            radius: radius(trees) + 8.0,
+            grove: radius(trees),
             stands,
         }
     }
 
-    /// The eye, and what it looks at: a rosette that leads round the grove and three times through it.
+    /// The eye, and what it looks at.
     pub fn view(&self) -> (Vec3, Vec3) {
-        let place = |t: f32| {
-            let reach = self.radius * (0.62 + 0.38 * (3.0 * t).cos());
-            Vec3::new(reach * t.cos(), EYE, reach * t.sin())
-        };
-        let t = TAU * self.frame as f32 / FRAMES as f32;
-        let eye = place(t);
-        // Ahead, and a little towards the middle of the grove, where the trees are.
-        let ahead = (place(t + 0.05) - eye).normalize_or(Vec3::NEG_X);
-        let inwards = (Vec3::Y * EYE - eye).normalize_or(Vec3::NEG_X);
-        let level = (ahead + 0.9 * inwards).normalize_or(inwards);
-        (eye, eye + level + Vec3::Y * 0.12)
+        rosette::view(self.grove, self.frame)
     }
 }
 

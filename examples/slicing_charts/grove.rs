@@ -18,12 +18,17 @@ pub const SHOT: Shot = Shot {
     size: UVec2::new(640, 480),
 };
 
+/// Radius of a grove of so many trees, in metres.
+pub fn radius(trees: u32) -> f32 {
+    SPACING * (trees as f32 / core::f32::consts::PI).sqrt()
+}
+
 /// Plants so many trees on a spiral of equal areas, with the same places, turns and scales each time.
 pub fn plant(lab: &mut Lab, drawn: &Drawn, trees: u32, casts_shadows: bool) -> Vec<Entity> {
     let mut dice = Dice::new(7);
     let group: Vec<Entity> = (0..trees)
         .map(|i| {
-            let reach = SPACING * (i as f32 / core::f32::consts::PI).sqrt();
+            let reach = radius(i);
             let (sin, cos) = (2.399_963 * i as f32).sin_cos();
             let place = Transform::from_xyz(reach * cos, 0.0, reach * sin)
                 .with_rotation(Quat::from_rotation_y(dice.angle()))

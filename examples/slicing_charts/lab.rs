@@ -2,7 +2,9 @@
 
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
-use bevy_verdure::lab::{Billboard, GpuClockPlugin, Studio, adapter_name, broadleaf_crown};
+use bevy_verdure::lab::{
+    Billboard, GpuClockPlugin, Impostor, ImpostorPlugin, Studio, adapter_name, broadleaf_crown,
+};
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
 
@@ -31,6 +33,8 @@ struct Looks {
 pub enum Drawn {
     Mesh,
     Slicing(Handle<Slicing>, CrownSettings),
+    /// A quad turned to the eye.
+    Impostor(Impostor),
     /// Flat pictures.
     Billboards(Vec<Billboard>),
 }
@@ -38,7 +42,7 @@ pub enum Drawn {
 impl Lab {
     pub fn open(quick: bool, trees: Vec<u32>) -> Self {
         let mut studio = Studio::new(|app| {
-            app.add_plugins(GpuClockPlugin)
+            app.add_plugins((GpuClockPlugin, ImpostorPlugin))
                 .insert_resource(GlobalAmbientLight {
                     brightness: 750.0,
                     ..default()
@@ -138,6 +142,9 @@ impl Lab {
                     for (mesh, material) in parts {
                         tree.spawn((Mesh3d(mesh), MeshMaterial3d(material)));
                     }
+                }
+                Drawn::Impostor((mesh, material)) => {
+                    tree.spawn((Mesh3d(mesh.clone()), MeshMaterial3d(material.clone())));
                 }
                 Drawn::Billboards(pair) => {
                     for (mesh, material) in pair {

@@ -10,6 +10,10 @@ mod grove;
 mod lab;
 mod parts;
 mod rivals;
+#[path = "../common/rosette.rs"]
+mod rosette;
+mod switches;
+mod walk;
 
 use std::path::PathBuf;
 
@@ -38,9 +42,11 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 8] = [
+const EXPERIMENTS: [Experiment; 10] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
+    ("slicing_switches", switches::error_against_cost),
+    ("slicing_walk", walk::against_trees),
     ("slicing_rivals_error", rivals::errors),
     ("slicing_rivals_cost", rivals::cost),
     ("slicing_slices", accuracy::against_slices),

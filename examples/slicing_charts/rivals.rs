@@ -1,32 +1,32 @@
 //! What a user would take instead: a crossed pair of billboards, and pictures from many sides; by error and by cost.
 
 use bevy::prelude::*;
-use bevy_verdure::lab::add_billboards;
 use bevy_verdure::lab::charts::{Axis, Chart, Series};
+use bevy_verdure::lab::{add_billboards, add_impostor};
 use bevy_verdure::prelude::*;
 
 use super::accuracy::{circle, flips};
 use super::cost::{Way, costs};
 use super::lab::{Drawn, Lab};
 
+/// Views along a side of the impostor's square: 64 pictures of the same pixels as the 63 slices of the slicing.
+const VIEWS: u32 = 8;
+
 /// The slicing of the defaults, its rivals, and slicings of one level of so many slices each.
 ///
-/// An impostor is a picture from each of many directions, of which the nearest two (circle) or three (sphere) are blended.
-/// Its pictures stand where their directions look from, as slices do, so that it is a slicing of one slice: 31 pictures of
-/// the same pixels as the 63 slices of the slicing.
+/// Two rivals have pictures from 31 directions round it or all over, of which the nearest two or three are blended. They stand
+/// where their directions look from, as slices do, so that they are slicings of one slice. The octahedral impostor's turn
+/// to the eye.
 fn ways(lab: &mut Lab, levels: &[u32]) -> Result<Vec<(String, Drawn)>, String> {
     let slices = |count| BakeSettings::default().with_slices(count);
-    let impostor = |orientations| BakeSettings {
+    let views = |orientations| BakeSettings {
         vertical: false,
         ..slices(1).with_orientations(orientations)
     };
     let bakes = [
         ("slicing", BakeSettings::default()),
-        ("impostor, 31 views", impostor(Orientations::Circle(31))),
-        (
-            "impostor, 31 views of the sphere",
-            impostor(Orientations::Sphere(31)),
-        ),
+        ("31 views of the circle", views(Orientations::Circle(31))),
+        ("31 views of the sphere", views(Orientations::Sphere(31))),
     ]
     .map(|(name, bake)| (name.to_string(), bake));
     let levels = levels.iter().map(|n| (format!("slices: {n}"), slices(*n)));
@@ -37,6 +37,9 @@ fn ways(lab: &mut Lab, levels: &[u32]) -> Result<Vec<(String, Drawn)>, String> {
         ways.push((name, drawn));
     }
     let crown = lab.crown.clone();
+    let impostor =
+        add_impostor(lab.studio.world(), &crown, VIEWS, 256).map_err(|error| error.to_string())?;
+    ways.push(("octahedral impostor".to_string(), Drawn::Impostor(impostor)));
     let pair =
         add_billboards(lab.studio.world(), &crown, 1024).map_err(|error| error.to_string())?;
     ways.push(("billboards".to_string(), Drawn::Billboards(pair)));

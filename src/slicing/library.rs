@@ -97,7 +97,7 @@ impl Shared {
                 normal: self.normal.clone(),
                 settings,
                 // Until `follow_lights` says otherwise, in this very frame.
-                lighting: settings.lighting,
+                lighting: settings.lighting.into(),
             })
         };
         self.materials.entry(settings).or_insert_with(make).clone()

@@ -26,15 +26,36 @@ type Rich = Or<(
 #[derive(SystemParam)]
 pub(crate) struct CrownLights<'w, 's> {
     rich: Query<'w, 's, (), Rich>,
+    suns: Query<'w, 's, (), With<DirectionalLight>>,
+}
+
+/// What lights crowns in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct SceneLighting {
+    pub(crate) lighting: CrownLighting,
+    /// Whether there is more than one directional light, for which simple lighting needs a loop.
+    pub(crate) more_suns: bool,
+}
+
+impl From<CrownLighting> for SceneLighting {
+    fn from(lighting: CrownLighting) -> Self {
+        Self {
+            lighting,
+            more_suns: false,
+        }
+    }
 }
 
 impl CrownLights<'_, '_> {
     /// The lighting for crowns that are to have `wanted`.
-    pub(crate) fn lighting(&self, wanted: CrownLighting) -> CrownLighting {
-        if wanted == CrownLighting::Simple && !self.rich.is_empty() {
-            CrownLighting::Full
-        } else {
-            wanted
+    pub(crate) fn lighting(&self, wanted: CrownLighting) -> SceneLighting {
+        match wanted {
+            CrownLighting::Simple if self.rich.is_empty() => SceneLighting {
+                lighting: wanted,
+                more_suns: self.suns.iter().nth(1).is_some(),
+            },
+            CrownLighting::Simple => CrownLighting::Full.into(),
+            CrownLighting::Full | CrownLighting::Unlit => wanted.into(),
         }
     }
 }

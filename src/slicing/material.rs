@@ -17,6 +17,7 @@ use bevy::shader::ShaderRef;
 
 use super::blend::SliceOrder;
 use super::component::{Composition, CrownLighting, CrownSettings};
+use super::lights::SceneLighting;
 use super::limits::MAX_ORIENTATIONS;
 use super::mesh::ATTRIBUTE_CORNER;
 use super::slicing::SlicingShape;
@@ -49,6 +50,7 @@ pub(crate) struct CrownUniform {
     sphere: u32,
     vertical: u32,
     flexibility: f32,
+    pixels: u32,
     /// Velocity of the wind.
     pub(crate) wind: Vec4,
     orientations: [OrientationUniform; MAX_ORIENTATIONS],
@@ -79,6 +81,7 @@ impl CrownUniform {
             sphere: shape.sphere.into(),
             vertical: shape.vertical.into(),
             flexibility: FLEXIBILITY * shape.radius,
+            pixels: shape.pixels,
             wind: wind.extend(0.0),
             orientations,
         }
@@ -100,7 +103,7 @@ pub struct SlicedCrownMaterial {
     pub(crate) normal: Handle<Image>,
     pub(crate) settings: CrownSettings,
     /// What lights the crowns in this scene.
-    pub(crate) lighting: CrownLighting,
+    pub(crate) lighting: SceneLighting,
 }
 
 /// What tells pipelines apart.
@@ -108,7 +111,7 @@ pub struct SlicedCrownMaterial {
 pub struct CrownKey {
     composition: Composition,
     order: SliceOrder,
-    lighting: CrownLighting,
+    lighting: SceneLighting,
     frames: bool,
 }
 
@@ -166,15 +169,14 @@ impl Material for SlicedCrownMaterial {
         descriptor.vertex.buffers = vec![corners];
         descriptor.primitive.cull_mode = None;
         let crown = key.bind_group_data;
+        let lighting = crown.lighting.lighting;
         let light = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
         let defs = names([
             (crown.composition == Composition::Hashed, "CROWN_HASHED"),
             (crown.order == SliceOrder::Paper, "CROWN_PAPER_ORDER"),
-            (crown.lighting == CrownLighting::Full, "CROWN_FULL_LIGHT"),
-            (
-                crown.lighting == CrownLighting::Simple,
-                "CROWN_SIMPLE_LIGHT",
-            ),
+            (lighting == CrownLighting::Full, "CROWN_FULL_LIGHT"),
+            (lighting == CrownLighting::Simple, "CROWN_SIMPLE_LIGHT"),
+            (crown.lighting.more_suns, "CROWN_MORE_SUNS"),
             (crown.frames, "CROWN_FRAMES"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
         ]);

@@ -27,6 +27,7 @@
 //! * Slices of a rank are drawn in the order of their orientations instead of the secondary before the primary one.
 //!   Orientations only come and go at opacity 0, so nothing pops where primary and secondary are swapped. The paper's
 //!   order is kept as [`SliceOrder::Paper`].
+//! * A slicing is drawn alone on half the way to the swap ([`blend::ALONE`]), so that crowns have a quarter fewer slices.
 //! * Blended slicings cover together what one of them covers alone, place by place ([`blend::covered`]), instead of by one
 //!   correction f_c for the whole crown.
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
@@ -69,6 +70,8 @@ use bevy::prelude::*;
 use bevy::render::storage::ShaderBuffer;
 use bevy::shader::load_shader_library;
 
+#[cfg(feature = "lab")]
+pub(crate) use bake::bake_towards;
 pub use bake::{
     BakeError, BakeSettings, CrownMaterial, CrownMesh, CrownTexture, CrownTriangle, CrownVertex,
     Separation, bake, bake_with_progress, separate,

@@ -57,9 +57,29 @@ pub fn bake_with_progress(
     settings: &BakeSettings,
     progress: impl Fn(usize, usize) + Sync,
 ) -> Result<Slicing, BakeError> {
+    bake_shape(mesh, settings, settings.directions(), progress)
+}
+
+/// Bakes a crown for eyes in these directions (unit, at most [`MAX_ORIENTATIONS`](super::MAX_ORIENTATIONS)) in place of
+/// those of the settings: pictures for other methods to draw.
+#[cfg(feature = "lab")]
+pub(crate) fn bake_towards(
+    mesh: &CrownMesh,
+    settings: &BakeSettings,
+    directions: Vec<Vec3>,
+) -> Result<Slicing, BakeError> {
+    bake_shape(mesh, settings, directions, |_, _| {})
+}
+
+fn bake_shape(
+    mesh: &CrownMesh,
+    settings: &BakeSettings,
+    directions: Vec<Vec3>,
+    progress: impl Fn(usize, usize) + Sync,
+) -> Result<Slicing, BakeError> {
     mesh.check()?;
     settings.check()?;
-    let shape = shape(mesh, settings);
+    let shape = shape(mesh, settings, directions);
     let light = match settings.occlusion {
         true => occlusion::light_from_around(mesh),
         false => vec![1.0; mesh.triangles.len()],
@@ -126,17 +146,13 @@ fn in_parallel<J: Sync>(
 }
 
 /// Orientations and boxes for a crown.
-fn shape(mesh: &CrownMesh, settings: &BakeSettings) -> SlicingShape {
+fn shape(mesh: &CrownMesh, settings: &BakeSettings, directions: Vec<Vec3>) -> SlicingShape {
     let (low, high) = mesh.bounds().unwrap_or_default();
     let centroid = 0.5 * (low + high);
     let positions = || mesh.triangles.iter().flat_map(CrownTriangle::positions);
     let radius = positions()
         .map(|p| p.distance(centroid))
         .fold(0.0, f32::max);
-    let mut directions = settings.orientations.directions();
-    if settings.has_vertical() {
-        directions.push(Vec3::Y);
-    }
     // A flat crown has no depth; its box has, so that nothing is divided by 0.
     let thinnest = Vec3::splat(1e-3 * radius);
     let orientations = directions.into_iter().map(|direction| {

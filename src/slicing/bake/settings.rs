@@ -1,5 +1,7 @@
 //! How a crown is baked.
 
+use bevy::math::Vec3;
+
 use super::error::BakeError;
 use crate::slicing::limits::{
     MAX_LAYERS, MAX_LEVELS, MAX_ORIENTATIONS, MAX_PIXELS, MAX_PIXELS_TOTAL, MAX_SLICES,
@@ -141,6 +143,13 @@ impl BakeSettings {
             });
         }
         Ok(())
+    }
+
+    /// The directions that are baked for, the vertical one last.
+    pub(super) fn directions(&self) -> Vec<Vec3> {
+        let mut directions = self.orientations.directions();
+        directions.extend(self.has_vertical().then_some(Vec3::Y));
+        directions
     }
 
     pub(super) fn has_vertical(&self) -> bool {

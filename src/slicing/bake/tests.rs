@@ -121,7 +121,7 @@ fn coverage_is_that_of_the_triangles_and_colours_are_theirs() {
 #[test]
 fn every_small_triangle_is_on_one_slice_of_each_orientation() {
     let crown = crown(60);
-    let shape = shape(&crown, &small());
+    let shape = shape(&crown, &small(), small().directions());
     for o in &shape.orientations {
         let projection = Projection {
             orientation: o,
@@ -159,7 +159,7 @@ fn a_primitive_larger_than_the_spacing_is_on_several_slices_without_a_crack() {
         Vec3::Y,
         0,
     );
-    let shape = shape(&mesh, &small());
+    let shape = shape(&mesh, &small(), small().directions());
     let o = &shape.orientations[0];
     let projection = Projection {
         orientation: o,

@@ -9,7 +9,7 @@ mod detail;
 mod weights;
 
 pub use detail::{FOCAL, levels};
-pub use weights::{SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slots};
+pub use weights::{ALONE, SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slots};
 
 use super::slicing::SlicingShape;
 

@@ -53,6 +53,26 @@ fn opacities_go_from_1_to_a_half_as_the_discrepancy_angle_grows_to_30_degrees() 
 }
 
 #[test]
+fn in_the_steady_order_a_slicing_is_alone_on_half_the_way_to_the_swap() {
+    let shape = shape(Orientations::Circle(6), true);
+    let slices = shape.levels[0] as usize;
+    for (angle, primary, drawn) in [
+        (0.0, 1.0, 1),
+        (14.9, 1.0, 1),
+        (22.5, 0.75, 2),
+        (29.99, 0.5, 2),
+    ] {
+        let eye = horizontal(60.0 + angle);
+        let slots = slots(&shape, eye, SliceOrder::Steady);
+        let of = |slot: &&super::Slot| slot.orientation == 1;
+        let weight = slots.iter().find(of).map_or(0.0, |slot| slot.weight);
+        // As above, over 15°.
+        assert!((weight - primary).abs() < 2e-3, "{angle}: {weight}");
+        assert_eq!(draw(&shape, eye * 4.0).len(), drawn * slices, "{angle}");
+    }
+}
+
+#[test]
 fn an_eye_above_counts_by_its_projection_to_the_plane_of_both() {
     let shape = shape(Orientations::Circle(6), false);
     for elevation in [0.0_f32, 20.0, 44.0] {
@@ -94,7 +114,7 @@ fn nothing_pops_on_any_way_of_the_eye() {
                 };
                 for s in before.iter().chain(&after) {
                     let change = (opacity(&before, key(s)) - opacity(&after, key(s))).abs();
-                    // A turn takes 20,000 steps; opacities fall by ½ in 30° at most.
+                    // A turn takes 20,000 steps; opacities fall by ½ in 15° at most.
                     assert!(change < 0.01, "{s:?} at {step}: {change}");
                 }
                 let matter = |all: &[DrawnSlice]| -> Vec<_> {

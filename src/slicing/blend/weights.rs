@@ -20,9 +20,14 @@ pub struct Slot {
     pub weight: f32,
 }
 
-/// Primary opacity α_p: 1 for an eye in line with the `primary` orientation, 0.5 half-way to the `secondary` one, linear
-/// in the angle between, the direction to the eye being projected to the plane of both.
-pub fn primary_opacity(primary: Vec3, secondary: Vec3, eye: Vec3) -> f32 {
+/// The share of the way from a slicing's direction to the swap on which it is drawn alone, in the steady order: on half of
+/// an orbit, crowns have half the slices. In the paper's order the secondary slicing is there from the start.
+pub const ALONE: f32 = 0.5;
+
+/// Primary opacity α_p: 1 for an eye in line with the `primary` orientation and on the share `alone` of the way from there
+/// to the swap, which is half-way to the `secondary` one; from there to 0.5 at the swap linear in the angle, the direction
+/// to the eye being projected to the plane of both. `alone` is 0 in the paper, and less than 1.
+pub fn primary_opacity(primary: Vec3, secondary: Vec3, eye: Vec3, alone: f32) -> f32 {
     let cosine = primary.dot(secondary).clamp(-1.0, 1.0);
     let across = secondary - primary * cosine;
     let width = across.length();
@@ -31,13 +36,17 @@ pub fn primary_opacity(primary: Vec3, secondary: Vec3, eye: Vec3) -> f32 {
     }
     let discrepancy = (eye.dot(across) / width).atan2(eye.dot(primary));
     let half = 0.5 * cosine.acos();
-    1.0 - 0.5 * (discrepancy / half).clamp(0.0, 1.0)
+    1.0 - 0.5 * ((discrepancy / half - alone) / (1.0 - alone)).clamp(0.0, 1.0)
 }
 
 /// The slicings for an eye in direction `eye` (unit) from the centroid, in the order in which the slices of a rank are
 /// drawn. Weights add up to 1.
 pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS] {
     let vertical = shape.vertical && order == SliceOrder::Steady;
+    let alone = match order {
+        SliceOrder::Steady => ALONE,
+        SliceOrder::Paper => 0.0,
+    };
     let count =
         shape.orientations.len() - usize::from(shape.vertical && shape.orientations.len() > 1);
     // The four orientations of least discrepancy angle, the nearest first.
@@ -71,7 +80,7 @@ pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS
         let direction = |k: usize| shape.orientations[nearest[k]].direction;
         let primary = match count {
             1 => 1.0,
-            _ => primary_opacity(direction(0), direction(1), eye),
+            _ => primary_opacity(direction(0), direction(1), eye, alone),
         };
         let rise = if vertical {
             smooth(RISE[0], RISE[1], eye.y.abs())

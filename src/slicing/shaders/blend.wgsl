@@ -9,6 +9,11 @@ const RISE: vec2<f32> = vec2(0.5, 0.866);
 const FADE: f32 = 0.1;
 const FOCAL: f32 = 500.0;
 const SUREST: f32 = 0.96;
+#ifdef CROWN_PAPER_ORDER
+const ALONE: f32 = 0.0;
+#else
+const ALONE: f32 = 0.5;
+#endif
 
 struct Slot {
     orientation: u32,
@@ -22,7 +27,7 @@ struct DrawnSlice {
     opacity: f32,
 }
 
-fn primary_opacity(primary: vec3<f32>, secondary: vec3<f32>, eye: vec3<f32>) -> f32 {
+fn primary_opacity(primary: vec3<f32>, secondary: vec3<f32>, eye: vec3<f32>, alone: f32) -> f32 {
     let cosine = clamp(dot(primary, secondary), -1.0, 1.0);
     let across = secondary - primary * cosine;
     let width = length(across);
@@ -31,7 +36,7 @@ fn primary_opacity(primary: vec3<f32>, secondary: vec3<f32>, eye: vec3<f32>) -> 
     }
     let discrepancy = atan2(dot(eye, across) / width, dot(eye, primary));
     let half = 0.5 * acos(cosine);
-    return 1.0 - 0.5 * clamp(discrepancy / half, 0.0, 1.0);
+    return 1.0 - 0.5 * clamp((discrepancy / half - alone) / (1.0 - alone), 0.0, 1.0);
 }
 
 fn swapped(slots: array<Slot, 3>, a: u32, b: u32) -> array<Slot, 3> {
@@ -85,7 +90,7 @@ fn slots(eye: vec3<f32>) -> array<Slot, 3> {
         var primary = 1.0;
         if count > 1u {
             primary = primary_opacity(
-                crown.orientations[nearest.x].direction, crown.orientations[nearest.y].direction, eye);
+                crown.orientations[nearest.x].direction, crown.orientations[nearest.y].direction, eye, ALONE);
         }
         let rise = select(0.0, smoothstep(RISE.x, RISE.y, abs(eye.y)), vertical);
         slots[0].weight = primary * (1.0 - rise);

@@ -8,7 +8,7 @@
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
 #import bevy_verdure::slicing::lots::{cells, footprint, is_there}
-#import bevy_verdure::slicing::simple::simple_light
+#import bevy_verdure::slicing::simple::{Leaf, simple_light}
 
 // Opacity below which a place is not worth its light.
 #ifdef CROWN_PAPER_ORDER
@@ -54,7 +54,9 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     var color = pbr_functions::apply_pbr_lighting(input);
 #else ifdef CROWN_SIMPLE_LIGHT
     let facing = slice_facing(in);
-    var color = vec4(simple_light(in, seen.rgb, facing, input.flags), seen.a);
+    let leaf = Leaf(
+        in.world_position, facing.normal, facing.occlusion, in.position.xy, in.layer, input.flags);
+    var color = vec4(simple_light(leaf, seen.rgb), seen.a);
 #else
     var color = seen;
 #endif

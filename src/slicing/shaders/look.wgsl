@@ -2,7 +2,7 @@
 
 // The fragment stage of all passes: what a slice looks like at a place.
 
-#import bevy_verdure::slicing::types::{color_texture, normal_texture, slice_sampler}
+#import bevy_verdure::slicing::types::{crown, color_texture, normal_texture, slice_sampler}
 #import bevy_verdure::slicing::blend::covered
 #import bevy_verdure::slicing::place::Varying
 
@@ -14,8 +14,13 @@ struct Facing {
 }
 
 fn slice_color(in: Varying) -> vec4<f32> {
+#ifdef CROWN_LIGHT_VIEW
+    // One pixel says it all: by chance a place is there or not anyhow.
+    let size = crown.pixels >> in.mip;
+    let pixel = min(vec2<u32>(in.uv * f32(size)), vec2(size - 1u));
+    var color = textureLoad(color_texture, pixel, in.layer, in.mip);
+#else
     var color = textureSample(color_texture, slice_sampler, in.uv, in.layer);
-#ifndef CROWN_LIGHT_VIEW
 #ifdef CROWN_PAPER_ORDER
     color.a *= in.opacity;
 #else

@@ -40,6 +40,8 @@ struct Varying {
 #ifdef CROWN_LIGHT_VIEW
     // Cells that lots are drawn for, along a side of the slice.
     @location(5) @interpolate(flat) grid: f32,
+    // The mip level whose pixels are the cells, or the finest.
+    @location(6) @interpolate(flat) mip: u32,
 #else
     // In linear light.
     @location(5) @interpolate(flat) tint: vec3<f32>,
@@ -186,6 +188,7 @@ fn place_corner(in: Corner) -> Varying {
 #ifdef CROWN_LIGHT_VIEW
     let width = max(size.x, size.y) * metre(in.instance_index) * pixels_per_metre();
     out.grid = cells(1.0 / width);
+    out.mip = u32(max(log2(f32(crown.pixels) / out.grid), 0.0));
 #else
     out.tint = tint(tag);
     out.world_position = from_eye + view.world_position;

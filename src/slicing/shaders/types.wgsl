@@ -23,6 +23,8 @@ struct Crown {
     sphere: u32,
     vertical: u32,
     flexibility: f32,
+    // Along a side of a slice.
+    pixels: u32,
     // xyz: velocity.
     wind: vec4<f32>,
     orientations: array<Orientation, 32>,

@@ -48,6 +48,32 @@ fn simple_light_looks_like_full_light() {
 }
 
 #[test]
+fn a_second_sun_lights_as_in_full_light_while_it_is_there() {
+    let (mut studio, crown) = studio(UNLIT);
+    sun(&mut studio);
+    let before = picture(&mut studio, crown, CrownLighting::Simple);
+    let second = (
+        DirectionalLight {
+            illuminance: 4_000.0,
+            ..default()
+        },
+        Transform::default().looking_to(Vec3::new(-1.0, -0.3, -1.0), Vec3::Y),
+    );
+    let second = studio.world().spawn(second).id();
+    studio.headless.step();
+    let [full, simple] = [CrownLighting::Full, CrownLighting::Simple]
+        .map(|lighting| picture(&mut studio, crown, lighting));
+    assert!(mean(&simple, 1) > mean(&before, 1) + 2.0, "it lights");
+    // As for one sun.
+    let error = mean_flip((SIZE.x, SIZE.y), &full.rgb_bytes(), &simple.rgb_bytes());
+    assert!(error < 0.02, "{error}");
+    studio.world().despawn(second);
+    studio.headless.step();
+    let after = picture(&mut studio, crown, CrownLighting::Simple);
+    assert_eq!(after.rgb_bytes(), before.rgb_bytes());
+}
+
+#[test]
 fn lamps_call_for_full_light_while_they_are_there() {
     let (mut studio, crown) = studio(UNLIT);
     sun(&mut studio);

@@ -271,7 +271,8 @@ fn crowns_are_seen_from_everywhere_mirrored_and_from_within() {
     for elevation in [-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0] {
         let picture = studio.photograph(&shot(eye(75.0, elevation, 16.0)), Color::WHITE);
         let seen = covered(&picture, [255; 3]);
-        assert!(seen > 3000, "{elevation}: {seen}");
+        // Fewer than from within: one slicing is alone here, and stands aslant for most elevations.
+        assert!(seen > 2500, "{elevation}: {seen}");
     }
     let inside = studio.photograph(&shot(eye(75.0, 10.0, 0.5)), Color::WHITE);
     assert!(covered(&inside, [255; 3]) > 3000);
