@@ -1,4 +1,4 @@
-//! How many slices a view shows: what the vertex shader chooses, counted on the CPU.
+//! How many slices a view shows.
 
 use bevy::prelude::*;
 
@@ -44,23 +44,10 @@ pub fn count(
 }
 
 /// Bytes on the device of a volume and of what covers facets: slices of all sets with their mip levels, colours and
-/// normals, uncompressed; and records and slots of facets.
+/// normals, uncompressed; and records of facets. Lists of slices come to 24 bytes for each that a view shows.
 pub fn texel_bytes(facets: &[Facet], volume: &ReferenceVolume, most: u32) -> usize {
     const RECORD: usize = 144;
-    const SLOT: usize = 56;
-    let measure = VolumeMeasure::of(volume, most);
-    let slots = |facet: &Facet| -> usize {
-        let on_facet = |axis: SliceAxis| {
-            let most = measure.most[axis.index()];
-            [most, most / 2]
-                .map(|count| slice_range(facet.uvs, axis, count).len())
-                .iter()
-                .sum::<usize>()
-        };
-        SliceAxis::ALL.map(on_facet).iter().sum()
-    };
-    let slots: usize = facets.iter().map(slots).sum();
-    SliceSets::new(volume, most).bytes() + facets.len() * RECORD + slots * SLOT
+    SliceSets::new(volume, most).bytes() + facets.len() * RECORD
 }
 
 /// A shot as slices are chosen by.
