@@ -1,7 +1,7 @@
 //! A volume's slices as texture arrays: one of colours and one of normals for each direction, in which the sets of 1, 2, 4
 //! and so on slices follow one another, so that slice k of N is layer N − 1 + k.
 
-use bevy::image::{Image, ImageAddressMode, ImageSamplerDescriptor};
+use bevy::image::{Image, ImageAddressMode, ImageFilterMode, ImageSamplerDescriptor};
 use bevy::render::render_resource::{Extent3d, TextureFormat};
 
 use super::super::axis::SliceAxis;
@@ -13,8 +13,19 @@ pub(crate) fn slice_images(sets: &SliceSets) -> [[Image; 2]; 3] {
     SliceAxis::ALL.map(|axis| {
         let sets: Vec<&SliceSet> = sets.iter().filter(|set| set.axis == axis).collect();
         [
-            image(&sets, TextureFormat::Rgba8UnormSrgb, |level| &level.colors),
-            image(&sets, TextureFormat::Rgba8Unorm, |level| &level.normals),
+            image(
+                &sets,
+                TextureFormat::Rgba8UnormSrgb,
+                ImageFilterMode::Linear,
+                |level| &level.colors,
+            ),
+            // Where slices are there is looked up most of all: in one mip level, for half the cost of two.
+            image(
+                &sets,
+                TextureFormat::Rgba8Unorm,
+                ImageFilterMode::Nearest,
+                |level| &level.normals,
+            ),
         ]
     })
 }
@@ -22,6 +33,7 @@ pub(crate) fn slice_images(sets: &SliceSets) -> [[Image; 2]; 3] {
 fn image(
     sets: &[&SliceSet],
     format: TextureFormat,
+    between_levels: ImageFilterMode,
     pixels: impl Fn(&SliceLevel) -> &[[u8; 4]],
 ) -> Image {
     let [width, height] = sets[0].levels[0].size;
@@ -48,6 +60,7 @@ fn image(
             SliceAxis::W => ImageAddressMode::Repeat,
             SliceAxis::U | SliceAxis::V => ImageAddressMode::ClampToEdge,
         },
+        mipmap_filter: between_levels,
         ..ImageSamplerDescriptor::linear()
     };
     let mip_levels = sets[0].levels.len() as u32;

@@ -89,6 +89,7 @@ pub(crate) fn extract(
 struct Job {
     view: usize,
     surface: usize,
+    order: Vec<(f32, u32)>,
     lists: [Vec<SliceRecord>; 3],
 }
 
@@ -159,9 +160,12 @@ impl SliceLists {
                         job.lists.iter_mut().for_each(Vec::clear);
                         let surface = &texels.surfaces[job.surface];
                         let (_, from) = &views[job.view];
-                        surface
-                            .source
-                            .list(&surface.world_from_local, from, &mut job.lists);
+                        surface.source.list(
+                            &surface.world_from_local,
+                            from,
+                            &mut job.order,
+                            &mut job.lists,
+                        );
                     }
                 });
             }

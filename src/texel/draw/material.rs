@@ -53,6 +53,7 @@ pub struct TexelMaterial {
     #[sampler(4)]
     pub(crate) color: Handle<Image>,
     #[texture(3, dimension = "2d_array")]
+    #[sampler(5)]
     pub(crate) normal: Handle<Image>,
     pub(crate) axis: SliceAxis,
     pub(crate) lit: bool,

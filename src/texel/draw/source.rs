@@ -79,12 +79,13 @@ pub(crate) struct SeenFrom {
 }
 
 impl SliceSource {
-    /// Lists the slices that a view has of a surface placed so, across u, v and w: facet by facet, on each the nearest first, so
-    /// that they hide the far ones.
+    /// Lists the slices that a view has of a surface placed so, across u, v and w: near facets first, and on each the nearest
+    /// slices, so that they hide the far ones. `order` is for facets to be sorted in.
     pub(crate) fn list(
         &self,
         world_from_local: &Affine3A,
         from: &SeenFrom,
+        order: &mut Vec<(f32, u32)>,
         lists: &mut [Vec<SliceRecord>; 3],
     ) {
         // From the eye, so that a facet 10 km from the origin is as steady as one at the origin.
@@ -112,7 +113,18 @@ impl SliceSource {
         };
         // Shadows are not seen to pop, and stay whole.
         let fades = settings.fade && !from.is_light;
-        for (index, facet) in (0u32..).zip(&*self.facets) {
+        order.clear();
+        order.extend((0u32..).zip(&*self.facets).map(|(index, facet)| {
+            let at = eye_from_local.transform_point3(facet.positions[0]);
+            let far = from
+                .view
+                .direction
+                .map_or(at.length_squared(), |ray| at.dot(ray));
+            (far, index)
+        }));
+        order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        for &mut (_, index) in order {
+            let facet = &self.facets[index as usize];
             let positions = facet
                 .positions
                 .map(|at| eye_from_local.transform_point3(at));

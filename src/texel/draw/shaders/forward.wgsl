@@ -5,7 +5,7 @@
     pbr_functions,
     pbr_types,
 }
-#import bevy_verdure::texel::look::{covered_samples, slice_color, slice_normal_and_alpha}
+#import bevy_verdure::texel::look::{covered_samples, slice_color, slice_normal, slice_normal_and_alpha}
 #ifdef TEXEL_NORMALS
 #import bevy_verdure::texel::look::world_normal
 #endif
@@ -45,9 +45,8 @@ fn fragment(in: Varying) {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    let baked = slice_normal_and_alpha(in);
     let seen = slice_color(in);
-    let normal = world_normal(in, baked.xyz);
+    let normal = world_normal(in, slice_normal(in));
     var input = pbr_types::pbr_input_new();
     input.material.base_color = vec4(seen, 1.0);
     input.material.perceptual_roughness = texels.roughness;

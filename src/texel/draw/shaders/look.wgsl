@@ -3,12 +3,31 @@
 // The fragment stage of all passes: what a slice looks like at a place.
 
 #import bevy_pbr::utils::interleaved_gradient_noise
-#import bevy_verdure::texel::place::Varying
-#import bevy_verdure::texel::types::{color_texture, normal_texture, slice_sampler}
+#import bevy_verdure::texel::place::{AXIS, Varying}
+#import bevy_verdure::texel::types::{color_texture, level_sampler, normal_texture, slice_sampler}
 
 // The volume's normal, and alpha, which colours have too, but here needs no conversion from sRGB.
 fn slice_normal_and_alpha(in: Varying) -> vec4<f32> {
-    return textureSample(normal_texture, slice_sampler, in.uv, in.layer);
+#ifdef TEXEL_DIRECTIONAL_LIGHT
+    // Of what casts a shadow one pixel says enough, in the level whose pixels are those of the shadow map.
+    let size = vec2<f32>(textureDimensions(normal_texture));
+    let dx = dpdx(in.uv) * size;
+    let dy = dpdy(in.uv) * size;
+    let level = 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1.0)) + 0.5;
+    let mip = min(u32(level), textureNumLevels(normal_texture) - 1u);
+    let columns_and_rows = max(textureDimensions(normal_texture) >> vec2(mip), vec2(1u));
+    // Rows of upright slices are heights, which end.
+    let inside = select(fract(in.uv), vec2(fract(in.uv.x), in.uv.y), AXIS != 2u);
+    let pixel = min(vec2<u32>(inside * vec2<f32>(columns_and_rows)), columns_and_rows - 1u);
+    return textureLoad(normal_texture, pixel, in.layer, mip);
+#else
+    return textureSample(normal_texture, level_sampler, in.uv, in.layer);
+#endif
+}
+
+// The volume's normal alone.
+fn slice_normal(in: Varying) -> vec3<f32> {
+    return textureSample(normal_texture, slice_sampler, in.uv, in.layer).xyz;
 }
 
 fn slice_color(in: Varying) -> vec3<f32> {
@@ -18,9 +37,14 @@ fn slice_color(in: Varying) -> vec3<f32> {
 // Which samples of a pixel are there, where alpha goes through one half. Pixels of slices are there or not; what
 // filtering puts between is where their outline runs.
 fn covered_samples(in: Varying, alpha: f32) -> u32 {
+#ifdef TEXEL_DIRECTIONAL_LIGHT
+    // Shadows do not fade.
+    let is_mine = true;
+#else
     // A number from 0 to 1 for each pixel of the screen, as evenly spread as may be.
     let mine = interleaved_gradient_noise(in.position.xy, 0u);
     let is_mine = mine >= in.lots.x && mine < in.lots.y;
+#endif
 #ifdef TEXEL_FOUR_SAMPLES
     // The standard places of four samples, in pixels from the centre.
     let dx = dpdx(alpha);

@@ -23,5 +23,6 @@ struct Texels {
 // Slices across one axis; the sets of 1, 2, 4 and so on slices, one after the other.
 @group(#{MATERIAL_BIND_GROUP}) @binding(2) var color_texture: texture_2d_array<f32>;
 @group(#{MATERIAL_BIND_GROUP}) @binding(3) var normal_texture: texture_2d_array<f32>;
-// Repeats along u and v, and not along w.
+// They repeat along u and v, and not along w; the second looks up one mip level.
 @group(#{MATERIAL_BIND_GROUP}) @binding(4) var slice_sampler: sampler;
+@group(#{MATERIAL_BIND_GROUP}) @binding(5) var level_sampler: sampler;
