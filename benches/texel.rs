@@ -13,7 +13,7 @@ use bevy_verdure::texel::build::{
 };
 use bevy_verdure::texel::facet::Facet;
 use bevy_verdure::texel::{
-    Choice, SliceSets, TexelQuality, TexelView, Thickness, VolumeMeasure, choose_all, silent,
+    SliceSets, TexelQuality, TexelView, Thickness, VolumeMeasure, choose_fading, silent,
 };
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
@@ -99,7 +99,6 @@ fn choice(c: &mut Criterion) {
     let mut group = c.benchmark_group("texel_choose");
     for side in [100u32, 300] {
         let facets = ground(side);
-        let mut choices = vec![Choice::LeftOut; facets.len()];
         let measure = VolumeMeasure {
             most: UVec3::new(256, 256, 64),
             lengths: Vec3::new(1.0, 1.0, 0.25),
@@ -117,7 +116,9 @@ fn choice(c: &mut Criterion) {
         group.bench_function(BenchmarkId::from_parameter(facets.len()), |b| {
             b.iter(|| {
                 let quality = TexelQuality::default();
-                choose_all(black_box(&facets), &measure, &view, &quality, &mut choices);
+                for facet in black_box(&facets) {
+                    black_box(choose_fading(facet, &measure, &view, &quality));
+                }
             });
         });
     }

@@ -65,7 +65,7 @@ pub fn slices_for_pixels(l: f32, sin_a: f32, z: f32, f: f32, p: f32) -> f32 {
 pub fn count_exponent(slices: f32, most: u32) -> u32 {
     let most = most.max(1).ilog2();
     let mut exponent = 0;
-    // Not by log2, which shaders round at will.
+    // Not by log2, which rounds.
     let enough = |exponent: u32| slices <= (1u32 << exponent) as f32;
     while exponent < most && !enough(exponent) {
         exponent += 1;

@@ -60,7 +60,7 @@ pub use asset::{TexelVolume, TexelVolumeLoader, TexelVolumePlugin};
 pub use axis::SliceAxis;
 pub use bake::BakedLight;
 pub use choose::{
-    AxisSlices, Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose, choose_all,
+    AxisSlices, Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose,
     choose_fading,
 };
 pub use draw::{

@@ -297,22 +297,5 @@ fn slices_needed(
 /// In place of the length of a vector that has none.
 const LEAST_LENGTH: f32 = 1e-30;
 
-/// Chooses for many facets, without allocating.
-///
-/// # Panics
-/// If there are not as many choices as facets.
-pub fn choose_all(
-    facets: &[Facet],
-    measure: &VolumeMeasure,
-    view: &TexelView,
-    quality: &TexelQuality,
-    choices: &mut [Choice],
-) {
-    assert_eq!(facets.len(), choices.len());
-    for (facet, slot) in facets.iter().zip(choices) {
-        *slot = choose(facet, measure, view, quality);
-    }
-}
-
 #[cfg(test)]
 mod tests;

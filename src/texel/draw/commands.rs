@@ -51,9 +51,9 @@ impl<P: PhaseItem> RenderCommand<P> for DrawSlices {
 }
 
 /// Goes on only where no prepass has drawn depth.
-pub(crate) struct OnlyWithoutPrepass;
+pub(crate) struct OnlyWithoutDepthPrepass;
 
-impl<P: PhaseItem> RenderCommand<P> for OnlyWithoutPrepass {
+impl<P: PhaseItem> RenderCommand<P> for OnlyWithoutDepthPrepass {
     type Param = ();
     type ViewQuery = Has<DepthPrepass>;
     type ItemQuery = ();
@@ -74,7 +74,7 @@ impl<P: PhaseItem> RenderCommand<P> for OnlyWithoutPrepass {
 }
 
 /// Depth in the main pass.
-pub(crate) type DrawTexelDepth = (OnlyWithoutPrepass, DrawTexels);
+pub(crate) type DrawTexelDepth = (OnlyWithoutDepthPrepass, DrawTexels);
 
 /// In the main pass.
 pub(crate) type DrawTexels = (
@@ -97,7 +97,7 @@ pub(crate) type DrawTexelsBefore = (
 );
 
 /// Lets materials of texels be drawn so, which Bevy has prepared to draw meshes.
-pub(crate) fn draw_slices(
+pub(crate) fn take_over_materials(
     texels: Res<ExtractedTexels>,
     mut materials: ResMut<ErasedRenderAssets<PreparedMaterial>>,
     opaque: Res<DrawFunctions<Opaque3d>>,
@@ -127,8 +127,9 @@ pub(crate) fn draw_slices(
         let Some(material) = materials.get_mut(material) else {
             continue;
         };
-        // Newly prepared, it is nobody else's yet.
+        // Bevy shares it only while it makes pipelines, later in the frame.
         let Some(properties) = Arc::get_mut(&mut material.properties) else {
+            error_once!("texels are not drawn: another plugin holds on to their materials");
             continue;
         };
         // Of what draws depth in the main pass alone, prepasses and shadow maps have nothing.

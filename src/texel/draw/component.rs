@@ -115,8 +115,7 @@ pub struct TexelSettings {
     pub quality: TexelQuality,
     /// The same for the views of lights, whose pixels are those of a shadow map. Its `direction` is not used.
     pub shadows: TexelQuality,
-    /// The most slices a texel in any direction, rounded down to a power of two. Memory, and the slots that are kept
-    /// ready for slices on each facet, grow with it.
+    /// The most slices a texel in any direction, rounded down to a power of two. Memory grows with it.
     pub most_slices: u32,
     /// Whether counts and directions of slices fade into one another, pixel by pixel, as the view changes; else they pop.
     pub fade: bool,

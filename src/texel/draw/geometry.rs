@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy::asset::{Assets, Handle};
 use bevy::camera::primitives::Aabb;
 use bevy::log::{error, warn};
-use bevy::math::{UVec3, Vec3};
+use bevy::math::{UVec3, Vec3, Vec3A};
 use bevy::mesh::Mesh;
 use bevy::render::storage::ShaderBuffer;
 
@@ -21,7 +21,9 @@ pub(crate) struct Geometry {
     pub facets: Arc<[Facet]>,
     /// The same on the GPU.
     pub buffer: Handle<ShaderBuffer>,
-    pub bounds: Aabb,
+    bounds: Aabb,
+    /// Length of the longest height vector.
+    tallest: f32,
     /// The most slices a texel that may be shown.
     pub most: UVec3,
     records: Vec<FacetRecord>,
@@ -56,6 +58,7 @@ impl Geometry {
             facets: found.facets.as_slice().into(),
             buffer: buffers.add(facet_buffer(&records)),
             bounds: bounds(&found.facets),
+            tallest: tallest(&found.facets),
             most,
             records,
         })
@@ -73,6 +76,7 @@ impl Geometry {
             return false;
         }
         self.bounds = bounds(&found.facets);
+        self.tallest = tallest(&found.facets);
         self.facets = found.facets.as_slice().into();
         let uvs =
             |records: &[FacetRecord]| records.iter().map(FacetRecord::uvs).collect::<Vec<_>>();
@@ -93,6 +97,22 @@ impl Geometry {
         self.buffer = buffers.add(facet_buffer(&self.records));
         true
     }
+}
+
+impl Geometry {
+    /// A box that holds all slices, whichever way the wind bends height vectors if they are flexible.
+    pub(crate) fn bounds_in_wind(&self, flexibility: f32) -> Aabb {
+        let mut bounds = self.bounds;
+        if flexibility != 0.0 {
+            bounds.half_extents += Vec3A::splat(self.tallest);
+        }
+        bounds
+    }
+}
+
+fn tallest(facets: &[Facet]) -> f32 {
+    let heights = facets.iter().flat_map(|facet| facet.heights);
+    heights.map(Vec3::length).fold(0.0, f32::max)
 }
 
 fn records(found: &SurfaceFacets) -> Vec<FacetRecord> {

@@ -118,7 +118,8 @@ impl TexelLibrary {
     /// The mesh that stands for slices in Bevy's phases, and is never drawn: what is drawn are lists of slices.
     pub(crate) fn quad(&mut self, meshes: &mut Assets<Mesh>) -> Handle<Mesh> {
         let add = || {
-            let usage = RenderAssetUsages::RENDER_WORLD;
+            // Kept, so that it is there again on a device that takes the place of a lost one.
+            let usage = RenderAssetUsages::default();
             let mesh = Mesh::new(PrimitiveTopology::TriangleStrip, usage)
                 .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, vec![Vec3::ZERO; 4])
                 // Bevy warns of meshes without, in a normal prepass.

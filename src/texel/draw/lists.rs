@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use bevy::camera::primitives::Frustum;
 use bevy::camera::{Camera3d, MainPassResolutionOverride};
-use bevy::light::NotShadowReceiver;
+use bevy::light::{NotShadowCaster, NotShadowReceiver};
 use bevy::math::Affine3A;
 use bevy::pbr::{LightEntity, MeshFlags};
 use bevy::platform::collections::HashMap;
@@ -26,6 +26,7 @@ struct SurfaceInFrame {
     world_from_local: Affine3A,
     previous: Affine3A,
     flags: MeshFlags,
+    casts_shadows: bool,
 }
 
 /// The surfaces of this frame.
@@ -53,6 +54,7 @@ type Extracted<'w> = (
     &'w GlobalTransform,
     &'w InheritedVisibility,
     Has<NotShadowReceiver>,
+    Has<NotShadowCaster>,
 );
 
 /// Takes the surfaces over into the render world.
@@ -66,7 +68,7 @@ pub(crate) fn extract(
     core::mem::swap(&mut texels.places, &mut texels.previous);
     texels.places.clear();
     texels.surfaces.clear();
-    for (entity, source, transform, visibility, receives_none) in &surfaces {
+    for (entity, source, transform, visibility, receives_none, casts_none) in &surfaces {
         if !visibility.get() {
             continue;
         }
@@ -80,6 +82,7 @@ pub(crate) fn extract(
             world_from_local,
             previous: previous.unwrap_or(world_from_local),
             flags,
+            casts_shadows: !casts_none,
         });
     }
 }
@@ -140,8 +143,8 @@ impl SliceLists {
         Some((records, surfaces, listed.records.clone(), listed.surface))
     }
 
-    /// Lists what all views have of all surfaces, in parallel.
-    fn list(&mut self, texels: &ExtractedTexels) {
+    /// Lists what all views have of all surfaces, in parallel: at most so many slices.
+    fn list(&mut self, texels: &ExtractedTexels, limit: usize) {
         let count = self.views.len() * texels.surfaces.len();
         self.jobs
             .resize_with(count.max(self.jobs.len()), Job::default);
@@ -160,6 +163,9 @@ impl SliceLists {
                         job.lists.iter_mut().for_each(Vec::clear);
                         let surface = &texels.surfaces[job.surface];
                         let (_, from) = &views[job.view];
+                        if from.is_light && !surface.casts_shadows {
+                            continue;
+                        }
                         surface.source.list(
                             &surface.world_from_local,
                             from,
@@ -183,6 +189,13 @@ impl SliceLists {
             let slices = texels.surfaces[job.surface].source.slices;
             for (axis, list) in job.lists.iter().enumerate() {
                 if list.is_empty() {
+                    continue;
+                }
+                if self.records.len() + list.len() > limit {
+                    error_once!(
+                        "texels are left out: a frame has more than {limit} slices, all that a buffer of this device \
+                         takes; raise TexelQuality::pixels or depth, or lower TexelSettings::most_slices"
+                    );
                     continue;
                 }
                 let start = self.records.len() as u32;
@@ -250,7 +263,14 @@ pub(crate) fn list_slices(
             });
         lists.views.extend(seen);
     }
-    lists.list(&texels);
+    // What is seen itself goes before what casts shadows.
+    lists.views.sort_by_key(|(_, from)| from.is_light);
+    let limit = device.limits().max_buffer_size as usize / size_of::<SliceRecord>();
+    let limit = limit.min(u32::MAX as usize);
+    lists.list(&texels, limit);
+    // Not for each that is added a buffer anew.
+    let capacity = lists.records.len().next_power_of_two().min(limit);
+    lists.records.reserve(capacity, &device);
     lists.records.write_buffer(&device, &queue);
     lists.surfaces.write_buffer(&device, &queue);
 }

@@ -2,16 +2,17 @@
 //! needs.
 //!
 //! 1. A [`TexelSurface`] on an entity names a volume (`component.rs`). Its mesh becomes facets (`surface_mesh.rs`), which
-//!    lie in a storage buffer (`records.rs`), and *slots* (`slots.rs`): a mesh of quads without positions, as many on
-//!    each facet as it may ever show slices. The volume becomes three pairs of texture arrays (`images.rs`). What is
-//!    alike is shared (`geometry.rs`, `library.rs`); slots and material are on a child of the surface (`systems.rs`).
-//! 2. In every pass of every view the vertex shader chooses for its facet (`shaders/choose.wgsl`, which is
-//!    [`choose`](super::choose()) again), finds the slice that its slot is, and cuts it out of the facet's prism
-//!    (`shaders/place.wgsl`, `shaders/facet.wgsl`). So shadow maps have the slices that their light needs, at a quality of
-//!    their own ([`TexelSettings::shadows`]).
-//! 3. Fragments are those of one slice: opaque, or discarded (`shaders/look.wgsl`). So they need no sorting, texels
-//!    that overlap interpenetrate, and all belongs to Bevy's phase of masked objects (`material.rs`). The scene lights
-//!    them by the volume's normals (`shaders/forward.wgsl`), and they cast shadows (`shaders/prepass.wgsl`).
+//!    the GPU has in a storage buffer (`records.rs`), and the volume three pairs of texture arrays (`images.rs`). What is
+//!    alike is shared (`geometry.rs`, `library.rs`). Children of the surface have the materials (`systems.rs`).
+//! 2. In each frame, and for each view, those of lights too, slices are [chosen](super::choose_fading) for every facet, and
+//!    listed, near ones first: by the CPU, in parallel, without allocating (`source.rs`, `lists.rs`). So shadow maps have
+//!    the slices that their light needs, at a quality of their own ([`TexelSettings::shadows`]).
+//! 3. The lists are drawn in Bevy's phases in place of meshes (`commands.rs`): each slice is a strip of four corners that
+//!    the vertex shader cuts out of the facet's prism (`shaders/place.wgsl`, `shaders/facet.wgsl`).
+//! 4. Fragments are those of one slice: opaque, or discarded (`shaders/look.wgsl`). So they need no sorting, and texels
+//!    that overlap interpenetrate. Depth is drawn first, in the phase of opaque objects; then, in that of masked ones, the
+//!    colours of what is at that depth (`material.rs`), lit by the scene by the volume's normals (`shaders/forward.wgsl`).
+//!    They cast shadows (`shaders/prepass.wgsl`).
 //!
 //! # What does not pop
 //! Where twice as many slices will soon be needed, they fade in, and so does the second best direction where it is nearly as
@@ -22,10 +23,11 @@
 //! shade themselves in stripes. Facets of a bent surface are shaded by the mesh's normals, so that they do not show.
 //!
 //! # What it costs
-//! A surface is three draws a pass, one for each axis, and instances where mesh, volume and settings are the same.
-//! Most of the cost is pixels of slices that are discarded or hidden. So a mesh below that is drawn too, and a
-//! [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) on the camera, save light; fewer pixels of shadow maps save
-//! slices. On the GPU a volume has all its sets of slices, some 64 bytes a voxel.
+//! A surface is three draws for depth and three for colours, one for each axis, where that axis has slices; three in a
+//! shadow map. Light costs what is seen; most of the rest is looking up, slice by slice, what is there, in shadow maps as
+//! well: fewer pixels of these save slices. On a camera with a
+//! [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) that draws the depth. On the GPU a volume has all its sets
+//! of slices, some 64 bytes a voxel.
 //!
 //! # What it does not do
 //! Skinned and morphed meshes carry texels where they are at rest. Cutting a volume into slices takes a second or more for
@@ -124,7 +126,7 @@ impl Plugin for TexelPlugin {
             .add_systems(
                 Render,
                 (
-                    commands::draw_slices
+                    commands::take_over_materials
                         .in_set(RenderSystems::PrepareAssets)
                         .after(prepare_erased_assets::<MeshMaterial3d<TexelMaterial>>),
                     lists::list_slices.in_set(RenderSystems::PrepareResources),

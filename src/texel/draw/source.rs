@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bevy::asset::AssetId;
+use bevy::math::primitives::ViewFrustum;
 use bevy::math::{Affine3A, Mat4, Vec3, Vec3A, Vec4};
 use bevy::prelude::*;
 
@@ -183,8 +184,11 @@ pub(crate) fn view_from_eye(
     let eye = Vec3::from(world_from_view.translation);
     let mut sides = [Vec4::ZERO; 6];
     if let Some(half_spaces) = half_spaces {
-        // What is nearer than a light's near plane casts shadows all the same.
-        for (side, plane) in sides.iter_mut().zip(&half_spaces[..4]) {
+        for (i, (side, plane)) in sides.iter_mut().zip(half_spaces).enumerate() {
+            // What is nearer than a light's near plane casts shadows all the same. An endless one has no far plane.
+            if i == ViewFrustum::NEAR_PLANE_IDX || !plane.is_finite() {
+                continue;
+            }
             *side = plane.truncate().extend(plane.w + plane.truncate().dot(eye));
         }
     }

@@ -2,7 +2,7 @@
 
 use bevy::camera::primitives::Aabb;
 use bevy::camera::visibility::{NoAutoAabb, RenderLayers};
-use bevy::light::{NotShadowCaster, NotShadowReceiver};
+use bevy::light::NotShadowCaster;
 use bevy::platform::collections::HashSet;
 use bevy::prelude::*;
 use bevy::render::batching::NoAutomaticBatching;
@@ -16,7 +16,7 @@ use super::source::SliceSource;
 use crate::wind::Wind;
 
 /// Marks the children of a [`TexelSurface`] that its slices are drawn by, two for each axis. Made by the plugin; they
-/// follow their surface's [`RenderLayers`], [`NotShadowCaster`] and [`NotShadowReceiver`].
+/// follow their surface's [`RenderLayers`] and [`NotShadowCaster`].
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
 pub struct TexelSlices;
@@ -99,11 +99,12 @@ pub(crate) fn attach(
             Drawn::Slices(geometry, measure, materials) => (geometry, measure, materials),
         };
         let ids = materials.each_ref().map(Handle::id);
+        let bounds = geometry.bounds_in_wind(settings.flexibility);
         let slices = if let Some(drawn) = drawn {
             for (child, material) in drawn.slices.iter().zip(materials) {
-                if let Ok((mut used, mut bounds)) = slices.get_mut(*child) {
+                if let Ok((mut used, mut seen)) = slices.get_mut(*child) {
                     used.set_if_neq(MeshMaterial3d(material));
-                    bounds.set_if_neq(geometry.bounds);
+                    seen.set_if_neq(bounds);
                 }
             }
             drawn.slices
@@ -113,7 +114,7 @@ pub(crate) fn attach(
                     TexelSlices,
                     Mesh3d(quad.clone()),
                     MeshMaterial3d(material),
-                    geometry.bounds,
+                    bounds,
                     NoAutoAabb,
                     // Each is drawn from lists of its own.
                     NoAutomaticBatching,
@@ -173,25 +174,20 @@ type Followed<'w> = (
     &'w TexelDrawn,
     Option<&'w RenderLayers>,
     Has<NotShadowCaster>,
-    Has<NotShadowReceiver>,
 );
 
 /// What of it they have.
-type Following<'w> = (
-    Option<&'w RenderLayers>,
-    Has<NotShadowCaster>,
-    Has<NotShadowReceiver>,
-);
+type Following<'w> = (Option<&'w RenderLayers>, Has<NotShadowCaster>);
 
-/// Shows slices where their surface is shown, and lets them cast and receive shadows as it does.
+/// Shows slices where their surface is shown, and lets them cast shadows as it does.
 pub(crate) fn follow_surfaces(
     mut commands: Commands,
     surfaces: Query<Followed>,
     slices: Query<Following, With<TexelSlices>>,
 ) {
-    for (drawn, layers, casts_none, receives_none) in &surfaces {
+    for (drawn, layers, casts_none) in &surfaces {
         for &child in &drawn.slices {
-            let Ok((own_layers, own_casts_none, own_receives_none)) = slices.get(child) else {
+            let Ok((own_layers, own_casts_none)) = slices.get(child) else {
                 continue;
             };
             let mut own = commands.entity(child);
@@ -205,11 +201,6 @@ pub(crate) fn follow_surfaces(
                 own.try_insert(NotShadowCaster);
             } else if own_casts_none && !casts_none {
                 own.try_remove::<NotShadowCaster>();
-            }
-            if receives_none && !own_receives_none {
-                own.try_insert(NotShadowReceiver);
-            } else if own_receives_none && !receives_none {
-                own.try_remove::<NotShadowReceiver>();
             }
         }
     }

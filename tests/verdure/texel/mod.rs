@@ -5,6 +5,7 @@ mod passes;
 mod selection;
 mod steady;
 mod twins;
+mod views;
 
 use std::sync::LazyLock;
 

@@ -58,7 +58,7 @@ fn sun(studio: &mut Studio) {
 }
 
 /// A white floor below the default square.
-fn floor(studio: &mut Studio) {
+pub fn floor(studio: &mut Studio) {
     let world = studio.world();
     let mesh = world
         .resource_mut::<Assets<Mesh>>()
@@ -74,7 +74,7 @@ fn floor(studio: &mut Studio) {
 }
 
 /// Mean of all channels, 0 to 255.
-fn mean(picture: &Pixels) -> f64 {
+pub fn mean(picture: &Pixels) -> f64 {
     let bytes = picture.rgb_bytes();
     bytes.iter().map(|&byte| f64::from(byte)).sum::<f64>() / bytes.len() as f64
 }

@@ -45,6 +45,10 @@ fn fragment(in: Varying) {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
+    // Slices of another surface may lie at the same depth.
+    if covered_samples(in, slice_normal_and_alpha(in).a) == 0u {
+        discard;
+    }
     let seen = slice_color(in);
     let normal = world_normal(in, slice_normal(in));
     var input = pbr_types::pbr_input_new();
