@@ -26,6 +26,7 @@ mod moment;
 mod plan;
 mod scenes;
 mod table;
+mod table_file;
 mod table_text;
 
 use std::path::{Path, PathBuf};
@@ -49,7 +50,8 @@ struct Args {
     /// Size of the pictures, in pixels.
     #[arg(long, value_parser = parse_size)]
     size: Option<Size>,
-    /// Scenes of the table; the first is that of the settings and of the sizes.
+    /// Scenes of the table; the first is that of the settings and of the sizes. Those that are not named keep the rows that
+    /// a table in the folder has for this device.
     #[arg(long = "scene", value_enum)]
     scenes: Vec<Scene>,
     /// Parts of the measurement, all if none is named.
@@ -109,6 +111,10 @@ fn run(args: &Args) -> Result<(), String> {
     }
     if wants(Part::Table) {
         let mut rows = Vec::new();
+        if !args.scenes.is_empty() {
+            rows = table_file::read(&args.out, &lab.adapter)?;
+            rows.retain(|row| !plan.scenes.contains(&row.scene));
+        }
         for scene in &plan.scenes {
             let pictures = args.pictures.then_some(&*args.out);
             rows.push(table::measure(&mut lab, &plan, *scene, pictures)?);
