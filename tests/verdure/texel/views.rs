@@ -92,8 +92,8 @@ fn lamps_cast_shadows_of_texels() {
         };
         world.spawn((light, lamp));
     };
-    let lamps: [(&str, &dyn Fn(&mut World)); 2] = [("point", &point), ("spot", &spot)];
-    for (name, spawn) in lamps {
+    let lamps: [&dyn Fn(&mut World); 2] = [&point, &spot];
+    for (name, spawn) in ["point", "spot"].into_iter().zip(lamps) {
         let (mut studio, surface) = lolly(TexelSettings::default());
         spawn(studio.world());
         let with = mean(&seen(&mut studio));
