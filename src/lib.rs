@@ -18,6 +18,7 @@
 //! A frame's work is ordered by [`VerdureSystems`], whose sets are public.
 #![warn(missing_docs)]
 
+mod draw_functions;
 pub mod frusta;
 #[cfg(feature = "lab")]
 pub mod lab;

@@ -15,8 +15,7 @@ mod rosette;
 mod switches;
 mod walk;
 
-use std::path::PathBuf;
-
+use bevy_verdure::lab::ChartArgs;
 use bevy_verdure::lab::charts::Chart;
 use clap::Parser;
 
@@ -25,12 +24,8 @@ use lab::Lab;
 /// Measures slicing, and draws the charts.
 #[derive(Parser)]
 struct Args {
-    /// Folder for the charts: SVG, PNG and CSV of each.
-    #[arg(long, default_value = "docs/charts")]
-    out: PathBuf,
-    /// Only those whose name contains this.
-    #[arg(long, default_value = "")]
-    only: String,
+    #[command(flatten)]
+    charts: ChartArgs,
     /// Fewer trees, eyes and settings.
     #[arg(long)]
     quick: bool,
@@ -58,11 +53,9 @@ const EXPERIMENTS: [Experiment; 10] = [
 fn main() -> Result<(), String> {
     let args = Args::parse();
     for (name, chart) in EXPERIMENTS {
-        if name.contains(&args.only) {
-            let mut lab = Lab::open(args.quick, args.trees.clone());
-            chart(&mut lab)?.save(&args.out, name)?;
-            println!("{}", args.out.join(name).with_extension("png").display());
-        }
+        args.charts.draw(name, || {
+            chart(&mut Lab::open(args.quick, args.trees.clone()))
+        })?;
     }
     Ok(())
 }

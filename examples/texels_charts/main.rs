@@ -23,7 +23,7 @@ mod whole;
 use std::path::PathBuf;
 
 use bevy_verdure::lab::charts::Chart;
-use bevy_verdure::lab::{Size, parse_size};
+use bevy_verdure::lab::{ChartArgs, Size, parse_size};
 use clap::Parser;
 
 use lab::Lab;
@@ -31,12 +31,8 @@ use lab::Lab;
 /// Measures texels, and draws the charts.
 #[derive(Parser)]
 struct Args {
-    /// Folder for the charts: SVG, PNG and CSV of each.
-    #[arg(long, default_value = "docs/charts")]
-    out: PathBuf,
-    /// Only those whose name contains this.
-    #[arg(long, default_value = "")]
-    only: String,
+    #[command(flatten)]
+    charts: ChartArgs,
     /// Fewer settings, views and frames.
     #[arg(long)]
     quick: bool,
@@ -73,10 +69,7 @@ fn main() -> Result<(), String> {
         pictures: args.pictures,
     };
     for (name, chart) in EXPERIMENTS {
-        if name.contains(&args.only) {
-            chart(&lab)?.save(&args.out, name)?;
-            println!("{}", args.out.join(name).with_extension("png").display());
-        }
+        args.charts.draw(name, || chart(&lab))?;
     }
     Ok(())
 }

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use bevy::math::{UVec2, Vec3};
 use clap::Args;
 
+use super::charts::Chart;
+
 /// Arguments of every example.
 #[derive(Args, Clone, Debug)]
 pub struct CommonArgs {
@@ -23,6 +25,35 @@ pub struct CommonArgs {
     /// Write figures of the run to this JSON file.
     #[arg(long, value_name = "FILE.json")]
     pub stats: Option<PathBuf>,
+}
+
+/// Arguments of every example that draws charts.
+#[derive(Args, Clone, Debug)]
+pub struct ChartArgs {
+    /// Folder for the charts: SVG, PNG and CSV of each.
+    #[arg(long, default_value = "docs/charts")]
+    pub out: PathBuf,
+    /// Only those whose name contains this.
+    #[arg(long, default_value = "")]
+    pub only: String,
+}
+
+impl ChartArgs {
+    /// Saves a chart of this name, if it is asked for.
+    ///
+    /// # Errors
+    /// When it cannot be drawn or written.
+    pub fn draw(
+        &self,
+        name: &str,
+        chart: impl FnOnce() -> Result<Chart, String>,
+    ) -> Result<(), String> {
+        if name.contains(&self.only) {
+            chart()?.save(&self.out, name)?;
+            println!("{}", self.out.join(name).with_extension("png").display());
+        }
+        Ok(())
+    }
 }
 
 /// Width and height in pixels.

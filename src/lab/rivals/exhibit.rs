@@ -12,9 +12,6 @@ use crate::lab::headless::Headless;
 use crate::plants::{Place, PlantPart, Planting};
 use crate::prelude::*;
 
-/// Colour of the sky.
-pub(super) const SKY: Color = Color::srgb(0.62, 0.82, 1.0);
-
 /// A planting, and those of the rivals that were asked for.
 ///
 /// All of them stand in the same world, and all but one are hidden, so that what a hidden plant costs falls on all.

@@ -3,10 +3,11 @@
 use bevy::prelude::*;
 
 use super::dress::Wardrobe;
-use super::exhibit::{Exhibit, SKY};
+use super::exhibit::Exhibit;
 use super::{Rival, Weight};
 use crate::lab::capture::Pixels;
 use crate::lab::compare::mean_flip;
+use crate::lab::daylight::SKY;
 use crate::lab::studio::{Figures, Shot, Studio};
 use crate::lab::supersample::box_downsample;
 

@@ -1,7 +1,5 @@
 //! How slices are drawn in Bevy's phases: as a material's mesh is, but from the lists of the view.
 
-use std::sync::Arc;
-
 use bevy::core_pipeline::core_3d::{AlphaMask3d, Opaque3d};
 use bevy::core_pipeline::prepass::{AlphaMask3dPrepass, DepthPrepass};
 use bevy::ecs::query::ROQueryItem;
@@ -22,7 +20,9 @@ use bevy::render::render_phase::{
     TrackedRenderPass,
 };
 
-use super::lists::{ExtractedTexels, SliceLists};
+use super::lists::SliceLists;
+use super::material::TexelMaterial;
+use crate::draw_functions::{UnlessView, edit_prepared, replace_draw_functions};
 
 /// Draws the slices that a view has of a surface across an axis.
 pub(crate) struct DrawSlices;
@@ -50,31 +50,8 @@ impl<P: PhaseItem> RenderCommand<P> for DrawSlices {
     }
 }
 
-/// Goes on only where no prepass has drawn depth.
-pub(crate) struct OnlyWithoutDepthPrepass;
-
-impl<P: PhaseItem> RenderCommand<P> for OnlyWithoutDepthPrepass {
-    type Param = ();
-    type ViewQuery = Has<DepthPrepass>;
-    type ItemQuery = ();
-
-    fn render<'w>(
-        _: &P,
-        has_prepass: ROQueryItem<'w, '_, Self::ViewQuery>,
-        _: Option<()>,
-        (): SystemParamItem<'w, '_, Self::Param>,
-        _: &mut TrackedRenderPass<'w>,
-    ) -> RenderCommandResult {
-        if has_prepass {
-            RenderCommandResult::Skip
-        } else {
-            RenderCommandResult::Success
-        }
-    }
-}
-
-/// Depth in the main pass.
-pub(crate) type DrawTexelDepth = (OnlyWithoutDepthPrepass, DrawTexels);
+/// Depth in the main pass, where no prepass has drawn it.
+pub(crate) type DrawTexelDepth = (UnlessView<DepthPrepass>, DrawTexels);
 
 /// In the main pass.
 pub(crate) type DrawTexels = (
@@ -98,8 +75,7 @@ pub(crate) type DrawTexelsBefore = (
 
 /// Lets materials of texels be drawn so, which Bevy has prepared to draw meshes.
 pub(crate) fn take_over_materials(
-    texels: Res<ExtractedTexels>,
-    mut materials: ResMut<ErasedRenderAssets<PreparedMaterial>>,
+    materials: ResMut<ErasedRenderAssets<PreparedMaterial>>,
     opaque: Res<DrawFunctions<Opaque3d>>,
     main: Res<DrawFunctions<AlphaMask3d>>,
     prepass: Res<DrawFunctions<AlphaMask3dPrepass>>,
@@ -123,22 +99,14 @@ pub(crate) fn take_over_materials(
             shadow.read().id::<DrawTexelsBefore>(),
         ),
     ];
-    for material in texels.sources().flat_map(|source| source.materials) {
-        let Some(material) = materials.get_mut(material) else {
-            continue;
-        };
-        // Bevy shares it only while it makes pipelines, later in the frame.
-        let Some(properties) = Arc::get_mut(&mut material.properties) else {
-            error_once!("texels are not drawn: another plugin holds on to their materials");
-            continue;
-        };
-        // Of what draws depth in the main pass alone, prepasses and shadow maps have nothing.
-        let is_mask = matches!(properties.render_phase_type, RenderPhaseType::AlphaMask);
-        (properties.prepass_enabled, properties.shadows_enabled) = (is_mask, is_mask);
-        for (label, function) in &mut properties.draw_functions {
-            if let Some((_, own)) = own.iter().find(|(known, _)| known == label) {
-                *function = *own;
-            }
-        }
-    }
+    edit_prepared::<TexelMaterial>(
+        materials,
+        |_| true,
+        |properties| {
+            // Of what draws depth in the main pass alone, prepasses and shadow maps have nothing.
+            let is_mask = matches!(properties.render_phase_type, RenderPhaseType::AlphaMask);
+            (properties.prepass_enabled, properties.shadows_enabled) = (is_mask, is_mask);
+            replace_draw_functions(properties, &own);
+        },
+    );
 }

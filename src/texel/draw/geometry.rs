@@ -97,9 +97,7 @@ impl Geometry {
         self.buffer = buffers.add(facet_buffer(&self.records));
         true
     }
-}
 
-impl Geometry {
     /// A box that holds all slices, whichever way the wind bends height vectors if they are flexible.
     pub(crate) fn bounds_in_wind(&self, flexibility: f32) -> Aabb {
         let mut bounds = self.bounds;

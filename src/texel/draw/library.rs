@@ -33,7 +33,7 @@ pub(crate) struct GeometryKey {
     own: Option<Entity>,
 }
 
-/// Surfaces that are drawn together: one mesh, one volume, the same settings.
+/// Surfaces that share materials: one mesh, one volume, the same looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct TexelKeys {
     pub geometry: GeometryKey,

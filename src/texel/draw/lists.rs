@@ -40,13 +40,6 @@ pub(crate) struct ExtractedTexels {
     wind: Vec3,
 }
 
-impl ExtractedTexels {
-    /// What the surfaces are chosen from.
-    pub(crate) fn sources(&self) -> impl Iterator<Item = &SliceSource> {
-        self.surfaces.iter().map(|surface| &surface.source)
-    }
-}
-
 /// What is extracted of a surface.
 type Extracted<'w> = (
     Entity,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy::asset::AssetId;
+use bevy::camera::primitives::Aabb;
 use bevy::math::primitives::ViewFrustum;
 use bevy::math::{Affine3A, Mat4, Vec3, Vec3A, Vec4};
 use bevy::prelude::*;
@@ -10,7 +10,6 @@ use bevy::prelude::*;
 use super::super::choose::{TexelQuality, TexelView, VolumeMeasure, choose_fading};
 use super::super::facet::{Facet, bend, slice_range};
 use super::component::TexelSettings;
-use super::material::TexelMaterial;
 use super::records::SliceRecord;
 
 /// What the slices of a surface are chosen from, in each view. On the surface; the plugin keeps it up to date.
@@ -18,33 +17,28 @@ use super::records::SliceRecord;
 pub(crate) struct SliceSource {
     /// In the space of the surface. All pass their check.
     facets: Arc<[Facet]>,
-    /// A sphere that holds them.
-    centre: Vec3,
-    radius: f32,
+    /// What holds them.
+    bounds: Aabb,
     measure: VolumeMeasure,
     settings: TexelSettings,
-    /// The children that colours across u, v and w are drawn by, those for depth, and their materials.
+    /// The children that colours across u, v and w are drawn by, and those for depth.
     pub slices: [Entity; 6],
-    pub materials: [AssetId<TexelMaterial>; 6],
 }
 
 impl SliceSource {
     pub(crate) fn new(
         facets: &Arc<[Facet]>,
+        bounds: Aabb,
         measure: VolumeMeasure,
         settings: TexelSettings,
         slices: [Entity; 6],
-        materials: [AssetId<TexelMaterial>; 6],
     ) -> Self {
-        let (centre, radius) = sphere_of(facets);
         Self {
             facets: facets.clone(),
-            centre,
-            radius,
+            bounds,
             measure,
             settings,
             slices,
-            materials,
         }
     }
 
@@ -55,13 +49,11 @@ impl SliceSource {
         measure: &VolumeMeasure,
         settings: &TexelSettings,
         slices: [Entity; 6],
-        materials: [AssetId<TexelMaterial>; 6],
     ) -> bool {
         Arc::ptr_eq(&self.facets, facets)
             && self.measure == *measure
             && self.settings == *settings
             && self.slices == slices
-            && self.materials == materials
     }
 }
 
@@ -95,12 +87,10 @@ impl SliceSource {
         let stretch = eye_from_local.matrix3.x_axis.length();
         let stretch = stretch.max(eye_from_local.matrix3.y_axis.length());
         let stretch = stretch.max(eye_from_local.matrix3.z_axis.length());
-        let centre = eye_from_local.transform_point3(self.centre);
+        let centre = eye_from_local.transform_point3a(self.bounds.center);
         // Sheared by less than the three axes together could.
-        if !from
-            .view
-            .may_see(centre, self.radius * stretch * 3f32.sqrt())
-        {
+        let radius = self.bounds.half_extents.length() * stretch * 3f32.sqrt();
+        if !from.view.may_see(centre.into(), radius) {
             return;
         }
         let settings = &self.settings;
@@ -199,21 +189,4 @@ pub(crate) fn view_from_eye(
         pixels: 0.5 * clip_from_view.y_axis.y.abs() * height,
         half_spaces: sides,
     }
-}
-
-/// A sphere that holds all facets.
-fn sphere_of(facets: &[Facet]) -> (Vec3, f32) {
-    let corners = || {
-        let both = facets.iter().flat_map(|f| [f.corners(0.0), f.corners(1.0)]);
-        both.flatten()
-    };
-    let (min, max) = corners().fold((Vec3::MAX, Vec3::MIN), |(min, max), corner| {
-        (min.min(corner), max.max(corner))
-    });
-    let centre = (min + max) * 0.5;
-    let radius = corners().map(|corner| corner.distance(centre));
-    // Height vectors keep their length in the wind, whichever way they go.
-    let heights = facets.iter().flat_map(|facet| facet.heights);
-    let tallest = heights.map(Vec3::length).fold(0.0, f32::max);
-    (centre, radius.fold(0.0, f32::max) + tallest)
 }

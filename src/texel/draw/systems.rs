@@ -98,7 +98,6 @@ pub(crate) fn attach(
             }
             Drawn::Slices(geometry, measure, materials) => (geometry, measure, materials),
         };
-        let ids = materials.each_ref().map(Handle::id);
         let bounds = geometry.bounds_in_wind(settings.flexibility);
         let slices = if let Some(drawn) = drawn {
             for (child, material) in drawn.slices.iter().zip(materials) {
@@ -127,10 +126,10 @@ pub(crate) fn attach(
             let drawn = TexelDrawn { keys, slices };
             commands.entity(entity).try_insert(drawn);
         }
-        let is_as_before = source
-            .is_some_and(|source| source.is_of(&geometry.facets, &measure, settings, slices, ids));
+        let is_as_before =
+            source.is_some_and(|source| source.is_of(&geometry.facets, &measure, settings, slices));
         if !is_as_before {
-            let source = SliceSource::new(&geometry.facets, measure, *settings, slices, ids);
+            let source = SliceSource::new(&geometry.facets, bounds, measure, *settings, slices);
             commands.entity(entity).try_insert(source);
         }
     }

@@ -5,7 +5,7 @@
     pbr_functions,
     pbr_types,
 }
-#import bevy_verdure::texel::look::{covered_samples, slice_color, slice_normal, slice_normal_and_alpha}
+#import bevy_verdure::texel::look::{seen_samples, slice_color, slice_normal, slice_normal_and_alpha}
 #ifdef TEXEL_NORMALS
 #import bevy_verdure::texel::look::world_normal
 #endif
@@ -23,20 +23,14 @@ fn vertex(corner: Corner) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @builtin(sample_mask) u32 {
-    let covered = covered_samples(in, slice_normal_and_alpha(in).a);
-    if covered == 0u {
-        discard;
-    }
-    return covered;
+    return seen_samples(in, slice_normal_and_alpha(in).a);
 }
 
 #else
 
 @fragment
 fn fragment(in: Varying) {
-    if covered_samples(in, slice_normal_and_alpha(in).a) == 0u {
-        discard;
-    }
+    _ = seen_samples(in, slice_normal_and_alpha(in).a);
 }
 
 #endif
@@ -46,9 +40,7 @@ fn fragment(in: Varying) {
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
     // Slices of another surface may lie at the same depth.
-    if covered_samples(in, slice_normal_and_alpha(in).a) == 0u {
-        discard;
-    }
+    _ = seen_samples(in, slice_normal_and_alpha(in).a);
     let seen = slice_color(in);
     let normal = world_normal(in, slice_normal(in));
     var input = pbr_types::pbr_input_new();

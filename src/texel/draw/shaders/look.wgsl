@@ -57,6 +57,15 @@ fn covered_samples(in: Varying, alpha: f32) -> u32 {
 #endif
 }
 
+// The same; a pixel without any is none.
+fn seen_samples(in: Varying, alpha: f32) -> u32 {
+    let covered = covered_samples(in, alpha);
+    if covered == 0u {
+        discard;
+    }
+    return covered;
+}
+
 #ifdef TEXEL_NORMALS
 
 // The unit normal in world space, of one of the volume as its texture has it.

@@ -2,7 +2,7 @@
 
 #import bevy_pbr::prepass_bindings::previous_view_uniforms
 #import bevy_pbr::mesh_view_bindings::view
-#import bevy_verdure::texel::look::{covered_samples, slice_normal_and_alpha}
+#import bevy_verdure::texel::look::{seen_samples, slice_normal_and_alpha}
 #ifdef NORMAL_PREPASS
 #import bevy_verdure::texel::look::world_normal
 #endif
@@ -33,10 +33,7 @@ struct Output {
 @fragment
 fn fragment(in: Varying) -> Output {
     let baked = slice_normal_and_alpha(in);
-    let covered = covered_samples(in, baked.a);
-    if covered == 0u {
-        discard;
-    }
+    let covered = seen_samples(in, baked.a);
     var out: Output;
 #ifdef TEXEL_FOUR_SAMPLES
     out.coverage = covered;
@@ -61,20 +58,14 @@ fn fragment(in: Varying) -> Output {
 
 @fragment
 fn fragment(in: Varying) -> @builtin(sample_mask) u32 {
-    let covered = covered_samples(in, slice_normal_and_alpha(in).a);
-    if covered == 0u {
-        discard;
-    }
-    return covered;
+    return seen_samples(in, slice_normal_and_alpha(in).a);
 }
 
 #else
 
 @fragment
 fn fragment(in: Varying) {
-    if covered_samples(in, slice_normal_and_alpha(in).a) == 0u {
-        discard;
-    }
+    _ = seen_samples(in, slice_normal_and_alpha(in).a);
 }
 
 #endif
