@@ -16,6 +16,7 @@ use super::component::{TexelHeights, TexelSettings, TexelSurface};
 use super::geometry::{Geometry, facets};
 use super::images::slice_images;
 use super::material::{TexelMaterial, TexelsUniform};
+use crate::lighting::{PlantLighting, SceneLights};
 
 /// A volume of which so many slices are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -37,8 +38,9 @@ pub(crate) struct GeometryKey {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct TexelKeys {
     pub geometry: GeometryKey,
-    /// Those that materials have.
-    settings: [u32; 4],
+    lighting: PlantLighting,
+    /// Other settings that materials have.
+    settings: [u32; 3],
 }
 
 impl TexelKeys {
@@ -58,8 +60,8 @@ impl TexelKeys {
                 },
                 own,
             },
+            lighting: settings.lighting,
             settings: [
-                settings.lit.into(),
                 settings.roughness.to_bits(),
                 settings.reflectance.to_bits(),
                 settings.flexibility.to_bits(),
@@ -182,7 +184,8 @@ impl TexelLibrary {
                     color,
                     normal,
                     axis,
-                    lit: settings.lit,
+                    // Until `follow_lights` says otherwise, in this very frame.
+                    lighting: settings.lighting.into(),
                     depth,
                 })
             })
@@ -226,6 +229,25 @@ impl TexelLibrary {
             {
                 let flexibility = material.texels.wind.w;
                 material.texels.wind = wind.extend(flexibility);
+            }
+        }
+    }
+
+    /// Tells all materials which lighting the scene's lights call for.
+    pub(crate) fn follow_lights(
+        &self,
+        lights: &SceneLights,
+        materials: &mut Assets<TexelMaterial>,
+    ) {
+        for (keys, handles) in &self.materials {
+            let lighting = lights.lighting(keys.lighting);
+            for handle in handles {
+                // Only what is written to counts as changed.
+                if let Some(mut material) = materials.get_mut(handle)
+                    && material.lighting != lighting
+                {
+                    material.lighting = lighting;
+                }
             }
         }
     }

@@ -69,6 +69,7 @@ pub use surface_mesh::TexelSurfaceError;
 pub use systems::TexelSlices;
 
 use crate::VerdureSystems;
+use crate::lighting::LightingPlugin;
 use crate::wind::Wind;
 
 /// Draws [`TexelSurface`]s.
@@ -79,6 +80,7 @@ pub struct TexelPlugin;
 
 impl Plugin for TexelPlugin {
     fn build(&self, app: &mut App) {
+        LightingPlugin::add_to(app);
         load_shader_library!(app, "shaders/types.wgsl");
         load_shader_library!(app, "shaders/facet.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
@@ -102,6 +104,7 @@ impl Plugin for TexelPlugin {
                     systems::cycle,
                     systems::follow_assets,
                     systems::attach,
+                    systems::follow_lights,
                     systems::follow_surfaces,
                     systems::follow_wind.run_if(resource_changed::<Wind>),
                 )
