@@ -107,6 +107,12 @@ impl Lab {
         }
     }
 
+    /// The middle of the crown's bounds.
+    pub fn centroid(&self) -> Vec3 {
+        let (low, high) = self.crown.bounds().unwrap_or_default();
+        0.5 * (low + high)
+    }
+
     /// Bakes the crown.
     pub fn bake(&mut self, settings: &BakeSettings) -> Result<Handle<Slicing>, String> {
         let slicing = bake(&self.crown, settings).map_err(|error| error.to_string())?;

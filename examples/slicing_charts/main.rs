@@ -2,10 +2,12 @@
 //!
 //! ```text
 //! cargo run --example slicing_charts -- --out docs/charts
+//! cargo run --example slicing_charts -- --figures
 //! ```
 
 mod accuracy;
 mod cost;
+mod figures;
 mod grove;
 mod lab;
 mod parts;
@@ -14,6 +16,8 @@ mod rivals;
 mod rosette;
 mod switches;
 mod walk;
+
+use std::path::PathBuf;
 
 use bevy_verdure::lab::ChartArgs;
 use bevy_verdure::lab::charts::Chart;
@@ -32,6 +36,9 @@ struct Args {
     /// How many trees, for charts of cost.
     #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=10_000))]
     trees: Vec<u32>,
+    /// Draws the paper's Figures 3, 5 and 6 into this folder instead.
+    #[arg(long, num_args = 0..=1, default_missing_value = "docs/figures", value_name = "DIR")]
+    figures: Option<PathBuf>,
 }
 
 /// A chart of its name.
@@ -52,6 +59,9 @@ const EXPERIMENTS: [Experiment; 10] = [
 
 fn main() -> Result<(), String> {
     let args = Args::parse();
+    if let Some(dir) = &args.figures {
+        return figures::draw(&mut Lab::open(args.quick, args.trees.clone()), dir);
+    }
     for (name, chart) in EXPERIMENTS {
         args.charts.draw(name, || {
             chart(&mut Lab::open(args.quick, args.trees.clone()))
