@@ -6,10 +6,15 @@
 //! ```
 
 mod accuracy;
+mod brightness;
 mod cost;
+mod discrepancy;
 mod figures;
 mod grove;
+mod intersecting;
 mod lab;
+mod light;
+mod near;
 mod parts;
 mod rivals;
 #[path = "../common/rosette.rs"]
@@ -44,7 +49,7 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 10] = [
+const EXPERIMENTS: [Experiment; 16] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
     ("slicing_switches", switches::error_against_cost),
@@ -55,6 +60,12 @@ const EXPERIMENTS: [Experiment; 10] = [
     ("slicing_orientations", accuracy::against_orientations),
     ("slicing_pixels", accuracy::against_pixels),
     ("slicing_elevation", accuracy::against_elevation),
+    ("slicing_discrepancy", discrepancy::against_angle),
+    ("slicing_brightness", brightness::against_background),
+    ("slicing_light", light::against_distance),
+    ("slicing_inside", near::inside),
+    ("slicing_perspective", near::perspective),
+    ("slicing_intersecting", intersecting::against_overlap),
 ];
 
 fn main() -> Result<(), String> {
