@@ -2,6 +2,7 @@
 
 mod agreement;
 mod brightness;
+mod draws;
 mod files;
 mod intersecting;
 mod lighting;
