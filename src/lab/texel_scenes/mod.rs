@@ -20,7 +20,7 @@ use clap::ValueEnum;
 use crate::texel::build::Spreading;
 use crate::texel::{TexelVolume, silent};
 
-pub use counts::{SliceCounts, count, texel_bytes, texel_view};
+pub use counts::{SliceCounts, texel_bytes, texel_view};
 pub use full::{full_mesh, instances};
 pub use patterns::Pattern;
 pub use stand::{FullMeshes, TexelStand, all_slices};

@@ -1,6 +1,6 @@
 //! The direction and the number of slices of every facet, for one view (§4.2, §4.3).
 
-use bevy::math::{UVec3, Vec3, Vec4};
+use bevy::math::{UVec3, Vec2, Vec3, Vec4};
 use bevy::reflect::{Reflect, std_traits::ReflectDefault};
 
 use super::axis::SliceAxis;
@@ -118,6 +118,8 @@ pub struct AxisSlices {
     pub inside: f32,
     /// d, which it should not exceed.
     pub depth: f32,
+    /// How much of a texel a pixel of the view covers at most, along the columns and along the rows of a slice.
+    pub footprint: Vec2,
 }
 
 /// Chooses for one facet: the direction at its centre, for deformations are taken to be small, and the number of slices by
@@ -175,6 +177,8 @@ struct FacetInView {
     cost: [f32; 3],
     /// The least distance of any part of it, so that none is drawn too coarsely; 1 of an orthographic view.
     z: f32,
+    /// The largest.
+    z_far: f32,
 }
 
 impl FacetInView {
@@ -208,11 +212,20 @@ impl FacetInView {
             };
             cost[i] = direction_cost(c[i], step);
         }
-        let z = match view.direction {
-            Some(_) => 1.0,
-            None => view.eye.distance(centre) - radius,
+        let (z, z_far) = match view.direction {
+            Some(_) => (1.0, 1.0),
+            None => {
+                let distance = view.eye.distance(centre);
+                (distance - radius, distance + radius)
+            }
         };
-        Some(Self { c, e, cost, z })
+        Some(Self {
+            c,
+            e,
+            cost,
+            z,
+            z_far,
+        })
     }
 
     /// Slices across one axis, however good a direction it is; they get all lots.
@@ -226,7 +239,7 @@ impl FacetInView {
     ) -> AxisSlices {
         let i = axis.index();
         let most = measure.most[i];
-        let [for_depth, for_pixels] =
+        let ([for_depth, for_pixels], slope) =
             slices_needed(facet, axis, measure, view, quality, self.c[i], self.z);
         // An eye in reach of the prism sees slices however far apart.
         let slices = if self.z > 0.0 {
@@ -245,6 +258,7 @@ impl FacetInView {
             // Beyond e there are gaps, and no inside.
             inside: (for_depth / (1u32 << exponent) as f32 * depth).min(self.e[i]),
             depth,
+            footprint: slope * (self.z_far / view.pixels),
         }
     }
 }
@@ -259,7 +273,8 @@ impl TexelView {
     }
 }
 
-/// How many slices the corners of the prism need for depth, and for pixels. Each has a frame of its own where height
+/// How many slices the corners of the prism need for depth, and for pixels; and how much of a texel, along columns and rows, a
+/// slice shows at most for a unit of length across the view. Each has a frame of its own where height
 /// vectors differ. `c` is the cosine at the centre; `z` is the least distance.
 fn slices_needed(
     facet: &Facet,
@@ -269,7 +284,8 @@ fn slices_needed(
     quality: &TexelQuality,
     c: f32,
     z: f32,
-) -> [f32; 2] {
+) -> ([f32; 2], Vec2) {
+    let mut slope = Vec2::ZERO;
     let (mut for_depth, mut for_pixels) = (0.0f32, 0.0f32);
     for w in [0.0, 1.0] {
         for (b, corner) in [Vec3::X, Vec3::Y, Vec3::Z]
@@ -286,12 +302,15 @@ fn slices_needed(
             let e = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
             let d = quality.depth * e;
             for_depth = for_depth.max(slices_for_depth(l, tan_view_angle(cosine), d));
+            let [across, up] = axis.in_plane().map(|axis| frame.edges[axis.index()]);
+            let gradients = Vec2::new(up.length(), across.length()) / across.cross(up).length();
+            slope = slope.max(gradients / cosine);
             let sin_a = sin_view_angle(cosine);
             for_pixels =
                 for_pixels.max(slices_for_pixels(l, sin_a, z, view.pixels, quality.pixels));
         }
     }
-    [for_depth, for_pixels]
+    ([for_depth, for_pixels], slope)
 }
 
 /// In place of the length of a vector that has none.

@@ -21,6 +21,48 @@ pub enum TexelSurfaceError {
     /// The length of height vectors is none.
     #[error("the thickness of the texels is {0}: give it a finite length greater than 0")]
     Thickness(f32),
+    /// The mesh of a `SkinnedMesh` says nothing of joints.
+    #[error(
+        "it has a SkinnedMesh, but its mesh has no joints: give it ATTRIBUTE_JOINT_INDEX (Uint16x4) and \
+         ATTRIBUTE_JOINT_WEIGHT (Float32x4) for each vertex, or remove the SkinnedMesh"
+    )]
+    NoSkin,
+    /// The bind poses of a `SkinnedMesh` are not loaded.
+    #[error("the inverse bind poses of its SkinnedMesh are not loaded: wait for them")]
+    NoBindposes,
+    /// A joint of a `SkinnedMesh` is not there.
+    #[error(
+        "joint {joint} of its SkinnedMesh has no GlobalTransform: keep the entity, or list another one"
+    )]
+    LostJoint {
+        /// Its place in the list of joints.
+        joint: usize,
+    },
+    /// A vertex follows a joint that is not there.
+    #[error(
+        "vertex {vertex}: joint {joint} is not one of {count}: give the SkinnedMesh as many joints and bind poses"
+    )]
+    MissingJoint {
+        /// The vertex.
+        vertex: usize,
+        /// The joint that it names.
+        joint: u16,
+        /// How many there are.
+        count: usize,
+    },
+    /// A joint is nowhere.
+    #[error(
+        "vertex {vertex} is posed to no number: correct the transforms of the joints that it follows"
+    )]
+    NotFinitePose {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// The surface's own transform cannot be undone.
+    #[error(
+        "its own transform has a scale of zero, or is no number: skinned surfaces need one that can be undone"
+    )]
+    FlatTransform,
 }
 
 /// The surface of a mesh.

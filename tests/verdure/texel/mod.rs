@@ -3,8 +3,10 @@
 mod agreement;
 mod passes;
 mod selection;
+mod skinned;
 mod steady;
 mod twins;
+mod uploads;
 mod views;
 
 use std::sync::LazyLock;
