@@ -141,6 +141,7 @@ impl Default for TexelSettings {
             shadows: TexelQuality {
                 depth: 1.0,
                 pixels: 2.0,
+                least_angle: 0.0,
                 ..Default::default()
             },
             most_slices: 256,

@@ -1,11 +1,10 @@
 //! From a Bevy mesh to the facets of a surface.
 
-use bevy::math::{Vec2, Vec3};
-use bevy::mesh::{Mesh, MeshVertexAttribute, VertexAttributeValues};
+use bevy::mesh::Mesh;
 use thiserror::Error;
 
 use super::super::facet::{Surface, SurfaceError};
-use super::super::from_mesh::{ShapeMeshError, triangles};
+use super::super::from_mesh::{ShapeMeshError, positions, triangles, uvs, vectors};
 use super::component::ATTRIBUTE_HEIGHT_VECTOR;
 
 /// Why a mesh carries no texels at all.
@@ -67,25 +66,15 @@ pub enum TexelSurfaceError {
 
 /// The surface of a mesh.
 pub(crate) fn surface(mesh: &Mesh) -> Result<Surface, ShapeMeshError> {
-    let vectors = |attribute: MeshVertexAttribute, name| -> Result<Vec<Vec3>, ShapeMeshError> {
-        let Some(values) = mesh.try_attribute_option(attribute)? else {
-            return Ok(Vec::new());
-        };
-        let values = values.as_float3().ok_or(ShapeMeshError::Format(name))?;
-        Ok(values.iter().copied().map(Vec3::from).collect())
+    let positions = positions(mesh)?;
+    let or_none = |attribute, name| {
+        let found = vectors(mesh, attribute, name)?;
+        Ok::<_, ShapeMeshError>(found.unwrap_or_default())
     };
-    let uvs: Vec<Vec2> = match mesh.try_attribute_option(Mesh::ATTRIBUTE_UV_0)? {
-        Some(VertexAttributeValues::Float32x2(uvs)) => {
-            uvs.iter().copied().map(Vec2::from).collect()
-        }
-        Some(_) => return Err(ShapeMeshError::Format("texture coordinates")),
-        None => Vec::new(),
-    };
-    let positions = vectors(Mesh::ATTRIBUTE_POSITION, "positions")?;
     Ok(Surface {
-        normals: vectors(Mesh::ATTRIBUTE_NORMAL, "normals")?,
-        uvs,
-        heights: vectors(ATTRIBUTE_HEIGHT_VECTOR, "height vectors")?,
+        normals: or_none(Mesh::ATTRIBUTE_NORMAL, "normals")?,
+        uvs: uvs(mesh)?,
+        heights: or_none(ATTRIBUTE_HEIGHT_VECTOR, "height vectors")?,
         triangles: triangles(mesh, positions.len())?,
         positions,
     })
