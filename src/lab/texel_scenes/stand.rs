@@ -1,6 +1,6 @@
 //! A scene of texels in a studio, drawn with one setting after the other.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use bevy::prelude::*;
 use bevy::render::render_resource::Face;
@@ -15,7 +15,9 @@ use crate::lab::studio::{Shot, Studio};
 use crate::lab::timing::GpuClockPlugin;
 use crate::lighting::PlantLighting;
 use crate::texel::facet::Facet;
-use crate::texel::{ReferenceVolume, TexelQuality, TexelSettings, TexelSurface, TexelVolume};
+use crate::texel::{
+    ReferenceVolume, SliceBoxes, SliceSets, TexelQuality, TexelSettings, TexelSurface, TexelVolume,
+};
 
 /// Distance, in metres, to which shadows are cast.
 const SHADOWS: f32 = 20.0;
@@ -36,6 +38,8 @@ pub struct TexelStand {
     /// Where each instance of the volume is, as nearly as turning and stretching can.
     pub instances: Vec<Transform>,
     scene: TexelScene,
+    /// Where slices show anything, found when it is asked for.
+    boxes: OnceLock<SliceBoxes>,
 }
 
 /// Settings that show every slice there is.
@@ -110,6 +114,7 @@ impl TexelStand {
             facets,
             instances: places,
             scene,
+            boxes: OnceLock::new(),
         })
     }
 
@@ -181,7 +186,9 @@ impl TexelStand {
 
     /// The slices that a view shows with some settings.
     pub fn count(&self, shot: &Shot, settings: &TexelSettings) -> SliceCounts {
-        count(&self.facets, &self.volume, shot, settings)
+        let sets = || SliceSets::new(&self.volume, u32::MAX);
+        let boxes = self.boxes.get_or_init(|| SliceBoxes::of(&sets()));
+        count(&self.facets, &self.volume, boxes, shot, settings)
     }
 }
 

@@ -129,6 +129,9 @@ pub struct TexelSettings {
     /// How far the top moves in the [`Wind`](crate::wind::Wind), in heights, for each metre a second: 0 is stiff, 0.03 is
     /// grass. Height vectors bend, and keep their length.
     pub flexibility: f32,
+    /// Whether slices that show nothing are drawn all the same, for comparison.
+    #[doc(hidden)]
+    pub empty_slices: bool,
 }
 
 impl Default for TexelSettings {
@@ -139,6 +142,7 @@ impl Default for TexelSettings {
             shadows: TexelQuality {
                 depth: 1.0,
                 pixels: 2.0,
+                least_angle: 0.0,
                 ..Default::default()
             },
             most_slices: 256,
@@ -147,6 +151,7 @@ impl Default for TexelSettings {
             roughness: 0.8,
             reflectance: 0.3,
             flexibility: 0.0,
+            empty_slices: false,
         }
     }
 }

@@ -4,8 +4,10 @@ mod agreement;
 mod lighting;
 mod passes;
 mod selection;
+mod skinned;
 mod steady;
 mod twins;
+mod uploads;
 mod views;
 
 use std::sync::LazyLock;

@@ -4,7 +4,7 @@
 
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_render::globals::Globals
-#import bevy_verdure::texel::facet::{Facet, TexelFrame, facet_point, facet_uv, normal_transform, slice_line_end, slice_position, smooth_frame, texel_frame}
+#import bevy_verdure::texel::facet::{Facet, TexelFrame, facet_point, facet_uv, normal_transform, slice_line_point, slice_position, smooth_frame, texel_frame}
 #import bevy_verdure::texel::types::{facets, normal_texture, texels}
 #import bevy_verdure::wind::sway
 
@@ -24,15 +24,17 @@ struct Corner {
     @location(0) slice: vec3<u32>,
     // Which pixels are its, from one lot to another, and how far the surface may be above the place inside of it that is seen.
     @location(1) look: vec3<f32>,
+    // What of it is drawn: from where to where along its line, and up its height vectors, from 0 to 1.
+    @location(2) trim: vec4<f32>,
     // Rows of the transform from the surface to the world, now and in the frame before.
-    @location(2) row_x: vec4<f32>,
-    @location(3) row_y: vec4<f32>,
-    @location(4) row_z: vec4<f32>,
-    @location(5) previous_x: vec4<f32>,
-    @location(6) previous_y: vec4<f32>,
-    @location(7) previous_z: vec4<f32>,
+    @location(3) row_x: vec4<f32>,
+    @location(4) row_y: vec4<f32>,
+    @location(5) row_z: vec4<f32>,
+    @location(6) previous_x: vec4<f32>,
+    @location(7) previous_y: vec4<f32>,
+    @location(8) previous_z: vec4<f32>,
     // Bevy's flags of a mesh.
-    @location(8) flags: u32,
+    @location(9) flags: u32,
 }
 
 struct Varying {
@@ -135,8 +137,8 @@ fn place_corner(in: Corner) -> Varying {
     } else {
         // A line, from the surface to the top.
         let position = slice_position(slice, count);
-        b = slice_line_end(facet.uvs, AXIS, position, corner == 1u || corner == 2u);
-        w = f32(corner >= 2u);
+        b = slice_line_point(facet.uvs, AXIS, position, select(in.trim.x, in.trim.y, corner == 1u || corner == 2u));
+        w = select(in.trim.z, in.trim.w, corner >= 2u);
     }
     let uv = facet_uv(facet, b);
     out.uv = vec2(select(uv.x, uv.y, AXIS == 0u), select(w, uv.y, AXIS == 2u));
