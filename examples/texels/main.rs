@@ -17,6 +17,7 @@ use bevy_verdure::lab::texel_scenes::{TexelScene, bend_knees, joints, surfaces};
 use bevy_verdure::prelude::*;
 use clap::Parser;
 
+use common::light::Light;
 use common::stage::Stage;
 
 /// Shows texels.
@@ -49,9 +50,9 @@ struct Args {
     /// Let texels cast no shadows.
     #[arg(long)]
     unshadowed: bool,
-    /// Show the volume's colours as they are.
-    #[arg(long)]
-    unlit: bool,
+    /// What lights the texels.
+    #[arg(long, value_enum, default_value_t = Light::Simple)]
+    light: Light,
     /// Draw a depth prepass first, so that no pixel is lit twice.
     #[arg(long)]
     prepass: bool,
@@ -81,7 +82,7 @@ fn run(args: &Args) -> Result<(), String> {
         },
         most_slices: args.most,
         flexibility: scene.flexibility(),
-        lit: !args.unlit,
+        lighting: args.light.into(),
         ..default()
     };
     let volume = scene.volume()?;

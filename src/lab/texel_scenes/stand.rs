@@ -13,6 +13,7 @@ use crate::lab::daylight::{Daylight, SKY};
 use crate::lab::headless::adapter_name;
 use crate::lab::studio::{Shot, Studio};
 use crate::lab::timing::GpuClockPlugin;
+use crate::lighting::PlantLighting;
 use crate::texel::facet::Facet;
 use crate::texel::{
     ReferenceVolume, SliceBoxes, SliceSets, TexelQuality, TexelSettings, TexelSurface, TexelVolume,
@@ -42,7 +43,7 @@ pub struct TexelStand {
 }
 
 /// Settings that show every slice there is.
-pub fn all_slices(lit: bool) -> TexelSettings {
+pub fn all_slices(lighting: PlantLighting) -> TexelSettings {
     TexelSettings {
         quality: TexelQuality {
             // Not 0, by which nothing can be divided.
@@ -50,7 +51,7 @@ pub fn all_slices(lit: bool) -> TexelSettings {
             pixels: 1e-3,
             ..default()
         },
-        lit,
+        lighting,
         ..default()
     }
 }

@@ -21,6 +21,7 @@ use super::material::{TexelMaterial, TexelsUniform};
 use super::skin::Skin;
 use super::source::DrawnVolume;
 use super::surface_mesh::TexelSurfaceError;
+use crate::lighting::{PlantLighting, SceneLights};
 
 /// A volume of which so many slices are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -42,8 +43,9 @@ pub(crate) struct GeometryKey {
 pub(crate) struct TexelKeys {
     pub geometry: GeometryKey,
     volume: VolumeKey,
-    /// Those that materials have.
-    settings: [u32; 4],
+    lighting: PlantLighting,
+    /// Other settings that materials have.
+    settings: [u32; 3],
 }
 
 impl TexelKeys {
@@ -63,8 +65,8 @@ impl TexelKeys {
                 id: surface.volume.id(),
                 most: settings.most_slices,
             },
+            lighting: settings.lighting,
             settings: [
-                settings.lit.into(),
                 settings.roughness.to_bits(),
                 settings.reflectance.to_bits(),
                 settings.flexibility.to_bits(),
@@ -189,7 +191,8 @@ impl TexelLibrary {
                     color,
                     normal,
                     axis,
-                    lit: settings.lit,
+                    // Until `follow_lights` says otherwise, in this very frame.
+                    lighting: settings.lighting.into(),
                     depth,
                 })
             })
@@ -241,6 +244,25 @@ impl TexelLibrary {
             {
                 let flexibility = material.texels.wind.w;
                 material.texels.wind = wind.extend(flexibility);
+            }
+        }
+    }
+
+    /// Tells all materials which lighting the scene's lights call for.
+    pub(crate) fn follow_lights(
+        &self,
+        lights: &SceneLights,
+        materials: &mut Assets<TexelMaterial>,
+    ) {
+        for (keys, handles) in &self.materials {
+            let lighting = lights.lighting(keys.lighting);
+            for handle in handles {
+                // Only what is written to counts as changed.
+                if let Some(mut material) = materials.get_mut(handle)
+                    && material.lighting != lighting
+                {
+                    material.lighting = lighting;
+                }
             }
         }
     }

@@ -72,6 +72,7 @@ pub use systems::TexelSlices;
 pub use upload::TexelStats;
 
 use crate::VerdureSystems;
+use crate::lighting::LightingPlugin;
 use crate::wind::Wind;
 
 /// Draws [`TexelSurface`]s.
@@ -82,6 +83,7 @@ pub struct TexelPlugin;
 
 impl Plugin for TexelPlugin {
     fn build(&self, app: &mut App) {
+        LightingPlugin::add_to(app);
         load_shader_library!(app, "shaders/types.wgsl");
         load_shader_library!(app, "shaders/facet.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
@@ -105,6 +107,7 @@ impl Plugin for TexelPlugin {
                     systems::cycle,
                     systems::follow_assets,
                     systems::attach,
+                    systems::follow_lights,
                     systems::follow_surfaces,
                     systems::follow_wind.run_if(resource_changed::<Wind>),
                 )

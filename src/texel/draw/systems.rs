@@ -14,6 +14,7 @@ use super::component::{LiveTexels, TexelCycle, TexelHeights, TexelSettings, Texe
 use super::library::{Drawn, GeometryKey, TexelAssets, TexelKeys, TexelLibrary};
 use super::material::TexelMaterial;
 use super::source::SliceSource;
+use crate::lighting::SceneLights;
 use crate::wind::Wind;
 
 /// Marks the children of a [`TexelSurface`] that its slices are drawn by, two for each axis. Made by the plugin; they
@@ -221,6 +222,15 @@ pub(crate) fn follow_wind(
     wind: Res<Wind>,
 ) {
     library.follow_wind(wind.limited(), &mut materials);
+}
+
+/// Tells the materials which lighting the scene's lights call for.
+pub(crate) fn follow_lights(
+    library: Res<TexelLibrary>,
+    mut materials: ResMut<Assets<TexelMaterial>>,
+    lights: SceneLights,
+) {
+    library.follow_lights(&lights, &mut materials);
 }
 
 /// What of a surface its slices follow.

@@ -1,6 +1,7 @@
 //! Texels as they are drawn.
 
 mod agreement;
+mod lighting;
 mod passes;
 mod selection;
 mod skinned;
@@ -99,7 +100,7 @@ fn reference(facet: &Facet) -> ReferenceFacet {
 /// Colours of the volume, as they are.
 fn unlit() -> TexelSettings {
     TexelSettings {
-        lit: false,
+        lighting: PlantLighting::Unlit,
         ..default()
     }
 }

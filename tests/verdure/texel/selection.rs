@@ -31,7 +31,7 @@ fn wider_gaps_between_slices_save_slices_and_cost_error() {
         let slices = stand.count(&shot, &settings).slices;
         (slices, stand.photograph(&shot).rgb_bytes())
     };
-    let (all, reference) = look(all_slices(false));
+    let (all, reference) = look(all_slices(PlantLighting::Unlit));
     let mut before = (all, 0.0);
     for pixels in [0.5, 2.0, 8.0] {
         let quality = TexelQuality {
@@ -40,7 +40,7 @@ fn wider_gaps_between_slices_save_slices_and_cost_error() {
         };
         let (slices, picture) = look(TexelSettings {
             quality,
-            ..all_slices(false)
+            ..all_slices(PlantLighting::Unlit)
         });
         let error = flip(&reference, &picture);
         println!("p {pixels}: {slices} of {all} slices, FLIP {error:.4}");
