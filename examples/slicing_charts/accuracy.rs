@@ -15,10 +15,9 @@ const SCREEN: (f32, f32) = (0.9, 480.0);
 pub const SKY: Color = Color::srgb(0.6, 0.8, 1.0);
 
 /// A shot that the crown fills, from a distance, an azimuth and an elevation in degrees, with the pixels of the screen.
-fn shot(lab: &Lab, distance: f32, azimuth: f32, elevation: f32) -> Shot {
-    let (low, high) = lab.crown.bounds().unwrap_or_default();
-    let centroid = 0.5 * (low + high);
-    let half = 0.55 * (high - low).length();
+pub fn shot(lab: &Lab, distance: f32, azimuth: f32, elevation: f32) -> Shot {
+    let centroid = lab.centroid();
+    let half = 1.1 * lab.radius();
     let angle = 2.0 * (half / distance).atan();
     let lines = SCREEN.1 * (0.5 * angle).tan() / (0.5 * SCREEN.0).tan();
     let (sin, cos) = azimuth.to_radians().sin_cos();
@@ -43,30 +42,69 @@ fn reference(lab: &mut Lab, shot: &Shot) -> Vec<u8> {
 
 /// Mean FLIP of ways to draw the crown against the mesh, over some shots.
 pub fn flips(lab: &mut Lab, shots: &[Shot], ways: &[(String, Drawn)]) -> Vec<f64> {
+    let errors = errors_by_shots(lab, &[shots.to_vec()], ways);
+    errors.into_iter().flatten().collect()
+}
+
+/// Mean FLIP of ways to draw the crown against the mesh, over each of some groups of shots: those of the first way first.
+pub fn errors_by_shots(
+    lab: &mut Lab,
+    groups: &[Vec<Shot>],
+    ways: &[(String, Drawn)],
+) -> Vec<Vec<f64>> {
+    errors_of_trees(lab, &[Transform::IDENTITY], groups, ways)
+}
+
+/// The same for trees at some places.
+pub fn errors_of_trees(
+    lab: &mut Lab,
+    places: &[Transform],
+    groups: &[Vec<Shot>],
+    ways: &[(String, Drawn)],
+) -> Vec<Vec<f64>> {
     let camera = lab.studio.camera();
-    let mesh = lab.plant(&Drawn::Mesh, Transform::IDENTITY);
-    lab.studio.headless.step();
-    let references: Vec<Vec<u8>> = shots.iter().map(|shot| reference(lab, shot)).collect();
-    lab.studio.world().despawn(mesh);
+    let meshes = planted(lab, &Drawn::Mesh, places);
+    let references: Vec<Vec<Vec<u8>>> = groups
+        .iter()
+        .map(|shots| shots.iter().map(|shot| reference(lab, shot)).collect())
+        .collect();
+    uproot(lab, &meshes);
     lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
     let mut errors = Vec::new();
     for (name, drawn) in ways {
-        let tree = lab.plant(drawn, Transform::IDENTITY);
-        for _ in 0..3 {
-            lab.studio.headless.step();
+        let trees = planted(lab, drawn, places);
+        let mut of_groups = Vec::new();
+        for (shots, references) in groups.iter().zip(&references) {
+            let mut sum = 0.0;
+            for (shot, reference) in shots.iter().zip(references) {
+                let picture = lab.studio.photograph(shot, SKY).rgb_bytes();
+                sum += f64::from(mean_flip((shot.size.x, shot.size.y), reference, &picture));
+            }
+            of_groups.push(sum / shots.len() as f64);
         }
-        let mut sum = 0.0;
-        for (shot, reference) in shots.iter().zip(&references) {
-            let picture = lab.studio.photograph(shot, SKY).rgb_bytes();
-            sum += f64::from(mean_flip((shot.size.x, shot.size.y), reference, &picture));
-        }
-        errors.push(sum / shots.len() as f64);
-        println!("{name}: {:.4}", sum / shots.len() as f64);
-        lab.studio.world().despawn(tree);
-        lab.studio.headless.step();
+        println!("{name}: {of_groups:.4?}");
+        errors.push(of_groups);
+        uproot(lab, &trees);
     }
     lab.studio.world().entity_mut(camera).insert(Msaa::Off);
     errors
+}
+
+/// Plants trees, and waits until they are drawn.
+pub fn planted(lab: &mut Lab, drawn: &Drawn, places: &[Transform]) -> Vec<Entity> {
+    let plant = |place: &Transform| lab.plant(drawn, *place);
+    let trees = places.iter().map(plant).collect();
+    for _ in 0..3 {
+        lab.studio.headless.step();
+    }
+    trees
+}
+
+pub fn uproot(lab: &mut Lab, trees: &[Entity]) {
+    for tree in trees {
+        lab.studio.world().despawn(*tree);
+    }
+    lab.studio.headless.step();
 }
 
 /// Slicings of some settings, by name.

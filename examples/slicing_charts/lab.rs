@@ -32,6 +32,8 @@ struct Looks {
 #[derive(Clone)]
 pub enum Drawn {
     Mesh,
+    /// Not at all: trunk and limbs alone.
+    Bare,
     Slicing(Handle<Slicing>, CrownSettings),
     /// A quad turned to the eye.
     Impostor(Impostor),
@@ -107,6 +109,18 @@ impl Lab {
         }
     }
 
+    /// The middle of the crown's bounds.
+    pub fn centroid(&self) -> Vec3 {
+        let (low, high) = self.crown.bounds().unwrap_or_default();
+        0.5 * (low + high)
+    }
+
+    /// Half the diagonal of the crown's bounds, in metres.
+    pub fn radius(&self) -> f32 {
+        let (low, high) = self.crown.bounds().unwrap_or_default();
+        0.5 * (high - low).length()
+    }
+
     /// Bakes the crown.
     pub fn bake(&mut self, settings: &BakeSettings) -> Result<Handle<Slicing>, String> {
         let slicing = bake(&self.crown, settings).map_err(|error| error.to_string())?;
@@ -138,6 +152,7 @@ impl Lab {
             .world()
             .entity_mut(tree)
             .with_children(|tree| match drawn {
+                Drawn::Bare => {}
                 Drawn::Mesh => {
                     for (mesh, material) in parts {
                         tree.spawn((Mesh3d(mesh), MeshMaterial3d(material)));

@@ -2,18 +2,27 @@
 //!
 //! ```text
 //! cargo run --example slicing_charts -- --out docs/charts
+//! cargo run --example slicing_charts -- --figures
 //! ```
 
 mod accuracy;
+mod brightness;
 mod cost;
+mod discrepancy;
+mod figures;
 mod grove;
+mod intersecting;
 mod lab;
+mod light;
+mod near;
 mod parts;
 mod rivals;
 #[path = "../common/rosette.rs"]
 mod rosette;
 mod switches;
 mod walk;
+
+use std::path::PathBuf;
 
 use bevy_verdure::lab::ChartArgs;
 use bevy_verdure::lab::charts::Chart;
@@ -32,12 +41,15 @@ struct Args {
     /// How many trees, for charts of cost.
     #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=10_000))]
     trees: Vec<u32>,
+    /// Draws the paper's Figures 3, 5 and 6 into this folder instead.
+    #[arg(long, num_args = 0..=1, default_missing_value = "docs/figures", value_name = "DIR")]
+    figures: Option<PathBuf>,
 }
 
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 10] = [
+const EXPERIMENTS: [Experiment; 16] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
     ("slicing_switches", switches::error_against_cost),
@@ -48,10 +60,19 @@ const EXPERIMENTS: [Experiment; 10] = [
     ("slicing_orientations", accuracy::against_orientations),
     ("slicing_pixels", accuracy::against_pixels),
     ("slicing_elevation", accuracy::against_elevation),
+    ("slicing_discrepancy", discrepancy::against_angle),
+    ("slicing_brightness", brightness::against_background),
+    ("slicing_light", light::against_distance),
+    ("slicing_inside", near::inside),
+    ("slicing_perspective", near::perspective),
+    ("slicing_intersecting", intersecting::against_overlap),
 ];
 
 fn main() -> Result<(), String> {
     let args = Args::parse();
+    if let Some(dir) = &args.figures {
+        return figures::draw(&mut Lab::open(args.quick, args.trees.clone()), dir);
+    }
     for (name, chart) in EXPERIMENTS {
         args.charts.draw(name, || {
             chart(&mut Lab::open(args.quick, args.trees.clone()))

@@ -1,9 +1,13 @@
 //! Crowns as they are drawn.
 
 mod agreement;
+mod brightness;
+mod draws;
 mod files;
+mod intersecting;
 mod lighting;
 mod live;
+mod near;
 mod passes;
 mod steady;
 
@@ -12,28 +16,36 @@ use std::sync::LazyLock;
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Pixels, Shot, Studio, broadleaf_crown};
-use bevy_verdure::plants::Broadleaf;
+use bevy_verdure::plants::{Broadleaf, BroadleafMeshes};
 use bevy_verdure::prelude::*;
 
 /// Size of the tests' pictures, in pixels.
 const SIZE: UVec2 = UVec2::new(160, 120);
 
-/// A small broadleaf, baked with 64² pixels a slice.
-static CROWN: LazyLock<Slicing> = LazyLock::new(|| {
-    let tree = Broadleaf {
+/// A small broadleaf.
+static TREE: LazyLock<BroadleafMeshes> = LazyLock::new(|| {
+    Broadleaf {
         twig_triangles: 900,
         leaf_triangles: 2400,
         leaf_length: 0.45,
         ..default()
     }
-    .grow(3);
-    let crown = broadleaf_crown(&tree).expect("a broadleaf's meshes can be baked");
+    .grow(3)
+});
+
+/// Its crown, baked with 64² pixels a slice.
+static CROWN: LazyLock<Slicing> = LazyLock::new(|| baked(0.5));
+
+/// Its crown with a correction m_s.
+fn baked(correction: f32) -> Slicing {
+    let crown = broadleaf_crown(&TREE).expect("a broadleaf's meshes can be baked");
     let settings = BakeSettings {
         samples: 2,
+        correction,
         ..BakeSettings::default().with_pixels(64)
     };
     bake(&crown, &settings).expect("the settings are in range")
-});
+}
 
 /// Colours of the pictures, as they are.
 const UNLIT: CrownSettings = CrownSettings {
@@ -68,6 +80,24 @@ fn plant(studio: &mut Studio, settings: CrownSettings, transform: Transform) -> 
     world
         .spawn((SlicedCrown(slicing), settings, transform))
         .id()
+}
+
+/// Plants the triangles that the crown was baked from, in their own colours.
+fn plant_mesh(studio: &mut Studio, transform: Transform) -> Entity {
+    let world = studio.world();
+    let colors = StandardMaterial {
+        unlit: true,
+        cull_mode: None,
+        ..default()
+    };
+    let colors = world.resource_mut::<Assets<StandardMaterial>>().add(colors);
+    let parts = [&TREE.twigs, &TREE.leaves]
+        .map(|mesh| world.resource_mut::<Assets<Mesh>>().add(mesh.clone()));
+    let mut crown = world.spawn((transform, Visibility::default()));
+    for mesh in parts {
+        crown.with_child((Mesh3d(mesh), MeshMaterial3d(colors.clone())));
+    }
+    crown.id()
 }
 
 /// A studio with one crown.

@@ -1,0 +1,83 @@
+//! Whether a crown near by differs from its mesh by how much it covers or by how it is lit, and by which light.
+
+use bevy::prelude::*;
+use bevy_verdure::lab::charts::{Axis, Chart, Series};
+use bevy_verdure::prelude::*;
+
+use super::accuracy::{planted, uproot};
+use super::brightness::{brightness, eyes};
+use super::lab::{Drawn, Lab};
+
+/// What is lit by what: a name, luminous exitance of light from around, whether the sun shines, and casts shadows.
+const LIGHTS: [(&str, f32, bool, bool); 3] = [
+    ("light from around", 750.0, false, false),
+    ("sun without shadows", 0.0, true, false),
+    ("sun with shadows", 0.0, true, true),
+];
+
+fn set(lab: &mut Lab, around: f32, shines: bool, casts: bool) {
+    let world = lab.studio.world();
+    world.insert_resource(GlobalAmbientLight {
+        brightness: around,
+        ..default()
+    });
+    let mut suns = world.query::<&mut DirectionalLight>();
+    for mut sun in suns.iter_mut(world) {
+        sun.illuminance = if shines { 10_500.0 } else { 0.0 };
+        sun.shadow_maps_enabled = casts;
+    }
+}
+
+/// The share of what is behind that a crown covers, and the mean light of what covers it by each of the lights, in
+/// line with an orientation and half-way to the next, by distance.
+fn measure(lab: &mut Lab, drawn: &Drawn, distances: &[f32]) -> Vec<[f64; 4]> {
+    let crown = planted(lab, drawn, &[Transform::IDENTITY]);
+    let mut all = Vec::new();
+    for distance in distances {
+        let shots: Vec<_> = [0.0, 30.0]
+            .into_iter()
+            .flat_map(|angle| eyes(lab, *distance, angle))
+            .collect();
+        let own = LIGHTS.map(|(_, around, shines, casts)| {
+            set(lab, around, shines, casts);
+            for _ in 0..3 {
+                lab.studio.headless.step();
+            }
+            brightness(lab, &shots, Color::BLACK)
+        });
+        let cover = 1.0 - (brightness(lab, &shots, Color::WHITE) - own[2]);
+        all.push([cover, own[0] / cover, own[1] / cover, own[2] / cover]);
+    }
+    uproot(lab, &crown);
+    all
+}
+
+pub fn against_distance(lab: &mut Lab) -> Result<Chart, String> {
+    let slicing = lab.bake(&BakeSettings::default())?;
+    let distances: &[f32] = if lab.quick {
+        &[8.0, 15.0, 25.0]
+    } else {
+        &[6.0, 8.0, 11.0, 15.0, 20.0, 25.0, 35.0, 50.0]
+    };
+    let camera = lab.studio.camera();
+    lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
+    let [mesh, sliced] = [Drawn::Mesh, Drawn::Slicing(slicing, default())]
+        .map(|drawn| measure(lab, &drawn, distances));
+    lab.studio.world().entity_mut(camera).insert(Msaa::Off);
+    let names = ["cover"]
+        .into_iter()
+        .chain(LIGHTS.iter().map(|(name, ..)| *name));
+    let series = names.enumerate().map(|(k, name)| {
+        let ratios = mesh.iter().zip(&sliced).map(|(mesh, s)| s[k] / mesh[k]);
+        let ratios: Vec<f64> = ratios.collect();
+        println!("{name}: {ratios:.3?}");
+        Series::line(name, distances.iter().map(|d| f64::from(*d)).zip(ratios))
+    });
+    Ok(Chart {
+        title: "Cover and light of a crown of slices, over the mesh's".into(),
+        series: series.collect(),
+        subtitle: lab.adapter.clone(),
+        x: Axis::linear("distance (m)"),
+        y: Axis::linear("ratio to the mesh"),
+    })
+}

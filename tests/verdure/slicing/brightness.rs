@@ -1,0 +1,54 @@
+//! Where slicing fails: how much of what is behind shows through two blended slicings, against one alone (§2.3).
+
+use bevy::prelude::*;
+use bevy_verdure::lab::Studio;
+use bevy_verdure::prelude::*;
+
+use super::{CROWN, SIZE, UNLIT, baked, eye, shot};
+
+/// The share of the light from behind that comes through the middle of a crown, from so many degrees off an orientation.
+fn through(studio: &mut Studio, angle: f32) -> f64 {
+    let (low, high) = (3 * SIZE / 8, 5 * SIZE / 8);
+    let all = [0.0, 120.0, 240.0].map(|azimuth| {
+        let look = shot(eye(azimuth + angle, 0.0, 16.0));
+        let [black, white] = [Color::BLACK, Color::WHITE].map(|background| {
+            let picture = studio.photograph(&look, background);
+            let pixels = (low.y..high.y).flat_map(|y| (low.x..high.x).map(move |x| (x, y)));
+            let light = pixels.map(|(x, y)| {
+                let [_, green, _] = picture.rgb(x, y);
+                f64::from(Color::srgb_u8(0, green, 0).to_linear().green)
+            });
+            light.sum::<f64>()
+        });
+        white - black
+    });
+    let area = (high - low).element_product();
+    all.iter().sum::<f64>() / (3 * area) as f64
+}
+
+#[test]
+fn as_much_shows_through_two_slicings_as_through_one_but_without_the_correction() {
+    let paper = CrownSettings {
+        order: SliceOrder::Paper,
+        ..UNLIT
+    };
+    let ways = [
+        ("default", CROWN.clone(), UNLIT),
+        ("m_s = 0.5", CROWN.clone(), paper),
+        ("m_s = 0", baked(0.0), paper),
+    ];
+    let [default, corrected, plain] = ways.map(|(name, slicing, settings)| {
+        let mut studio = Studio::default();
+        let world = studio.world();
+        let slicing = world.resource_mut::<Assets<Slicing>>().add(slicing);
+        world.spawn((SlicedCrown(slicing), settings));
+        studio.headless.step();
+        let (one, two) = (through(&mut studio, 0.0), through(&mut studio, 30.0));
+        println!("{name}: {one:.4} through one, {two:.4} through two");
+        assert!(one > 0.02, "{name}: nothing shows through");
+        two / one - 1.0
+    });
+    // f_c makes up for the average crown alone; m_s would have to be more for one as dense as this.
+    assert!(2.0 * corrected.abs() < plain, "{corrected} {plain}");
+    assert!(default.abs() < corrected.abs(), "{default} {corrected}");
+}

@@ -1,0 +1,90 @@
+//! How many draws and quads a grove takes in a frame.
+
+use core::f32::consts::PI;
+
+use bevy::core_pipeline::core_3d::Transparent3d;
+use bevy::prelude::*;
+use bevy::render::RenderApp;
+use bevy::render::render_phase::{PhaseItem, ViewSortedRenderPhases};
+use bevy_verdure::lab::{Lens, Shot, Studio};
+use bevy_verdure::prelude::*;
+use bevy_verdure::slicing::blend::drawn_slices;
+
+use super::{CROWN, UNLIT};
+
+/// The grove's eye, in a picture of the same shape. It sees a part of the trees.
+const LOOK: Shot = Shot {
+    eye: Vec3::new(-18.0, 1.7, 12.0),
+    at: Vec3::new(0.0, 4.0, 0.0),
+    lens: Lens::Perspective(0.9),
+    size: UVec2::new(64, 48),
+};
+
+/// What a frame takes.
+#[derive(Debug)]
+struct Frame {
+    /// Crowns in view.
+    crowns: usize,
+    draws: usize,
+    /// Slices that are not empty, on a screen of 480 lines.
+    quads: usize,
+    /// Neighbours in their order, far to near, that are of different assets.
+    changes: usize,
+}
+
+/// A grove on a spiral, of so many assets by turns.
+fn grove(crowns: u32, assets: usize) -> Frame {
+    let mut studio = Studio::default();
+    let mut slicings = studio.world().resource_mut::<Assets<Slicing>>();
+    let slicings: Vec<_> = (0..assets).map(|_| slicings.add(CROWN.clone())).collect();
+    for i in 0..crowns {
+        let reach = 9.0 * (i as f32 / PI).sqrt();
+        let (sin, cos) = (2.399_963 * i as f32).sin_cos();
+        let place = Transform::from_xyz(reach * cos, 0.0, reach * sin);
+        let slicing = slicings[i as usize % assets].clone();
+        studio.world().spawn((SlicedCrown(slicing), UNLIT, place));
+    }
+    studio.headless.step();
+    studio.photograph(&LOOK, Color::BLACK);
+    let render = studio.headless.app().sub_app(RenderApp).world();
+    let phases = render.resource::<ViewSortedRenderPhases<Transparent3d>>();
+    let items = phases.values().flat_map(|phase| phase.items.values());
+    // As Bevy walks through them: the first item of a batch stands for all of it.
+    let (mut draws, mut batched, mut seen) = (0, 0, Vec::new());
+    for item in items {
+        seen.push(item.main_entity().id());
+        if batched == 0 {
+            draws += 1;
+            batched = item.batch_range().len();
+        }
+        batched = batched.saturating_sub(1);
+    }
+    let world = studio.world();
+    let (mut quads, mut order) = (0, Vec::new());
+    for crown in &seen {
+        let place = world.get::<Transform>(*crown).unwrap().translation;
+        let eye = LOOK.eye - place - CROWN.shape().centroid;
+        quads += drawn_slices(CROWN.shape(), eye, UNLIT.order, 0).len();
+        order.push(world.get::<SlicedCrown>(*crown).unwrap().0.id());
+    }
+    Frame {
+        crowns: seen.len(),
+        draws,
+        quads,
+        changes: order.windows(2).filter(|pair| pair[0] != pair[1]).count(),
+    }
+}
+
+#[test]
+fn crowns_of_one_asset_are_one_draw_and_of_two_one_for_each_turn_in_their_order() {
+    for crowns in [128, 1000] {
+        let (one, two) = (grove(crowns, 1), grove(crowns, 2));
+        println!("{crowns} crowns: of one asset {one:?}, of two {two:?}");
+        assert!(one.crowns > crowns as usize / 8);
+        assert_eq!((one.draws, one.changes), (1, 0));
+        // The paper has ten quads a tree.
+        assert!(one.quads < 10 * one.crowns);
+        assert_eq!(two.draws, two.changes + 1);
+        assert!(two.draws > 1 && two.draws <= two.crowns);
+    }
+}
