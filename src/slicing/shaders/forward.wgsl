@@ -24,6 +24,9 @@ fn vertex(corner: Corner) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
+#ifdef VISIBILITY_RANGE_DITHER
+    pbr_functions::visibility_range_dither(in.position, in.dither);
+#endif
     var seen = slice_color(in);
 #ifdef CROWN_HASHED
     let is_seen = lot_of(in.uv, cells(footprint(in.uv)), in.lot) < seen.a;

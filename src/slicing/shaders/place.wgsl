@@ -11,6 +11,10 @@
 #import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
 
+#ifdef VISIBILITY_RANGE_DITHER
+#import bevy_pbr::mesh_functions::get_visibility_range_dither_level
+#endif
+
 #ifdef PREPASS_PIPELINE
 @group(0) @binding(1) var<uniform> globals: Globals;
 #else
@@ -34,6 +38,10 @@ struct Varying {
     @location(3) @interpolate(flat) instance_index: u32,
     // Tells the lots of this slice from those of others.
     @location(4) @interpolate(flat) lot: u32,
+#ifdef VISIBILITY_RANGE_DITHER
+    // How much of the crown its near mesh, or nothing, takes over, as Bevy has it.
+    @location(13) @interpolate(flat) dither: i32,
+#endif
 #ifdef CROWN_LIGHT_VIEW
     // Cells that lots are drawn for, along a side of the slice.
     @location(5) @interpolate(flat) grid: f32,
@@ -192,6 +200,9 @@ fn place_corner(in: Corner) -> Varying {
     out.opacity = slice.opacity;
     let tag = mesh[in.instance_index].tag;
     out.lot = pcg(layer + (tag >> 24u) * 256u);
+#ifdef VISIBILITY_RANGE_DITHER
+    out.dither = get_visibility_range_dither_level(in.instance_index, vec4(origin, 1.0));
+#endif
 #ifdef CROWN_LIGHT_VIEW
     let width = max(size.x, size.y) * metre(in.instance_index) * pixels_per_metre();
     out.grid = cells(1.0 / width);

@@ -6,6 +6,9 @@
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
 #import bevy_verdure::slicing::lots::{cells, footprint, lot_of}
+#ifdef VISIBILITY_RANGE_DITHER
+#import bevy_pbr::pbr_functions::visibility_range_dither
+#endif
 
 @vertex
 fn vertex(corner: Corner) -> Varying {
@@ -18,6 +21,9 @@ fn vertex(corner: Corner) -> Varying {
 // itself as softly as the leaves do that are drawn into it.
 @fragment
 fn fragment(in: Varying) -> @builtin(frag_depth) f32 {
+#ifdef VISIBILITY_RANGE_DITHER
+    visibility_range_dither(in.position, in.dither);
+#endif
     let alpha = slice_color(in).a;
     let lot = lot_of(in.uv, in.grid, in.lot);
     if lot >= alpha {
@@ -34,6 +40,9 @@ fn fragment(in: Varying) -> @builtin(frag_depth) f32 {
 #else
 
 fn is_seen(in: Varying) -> bool {
+#ifdef VISIBILITY_RANGE_DITHER
+    visibility_range_dither(in.position, in.dither);
+#endif
     return lot_of(in.uv, cells(footprint(in.uv)), in.lot) < slice_color(in).a;
 }
 

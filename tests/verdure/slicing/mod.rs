@@ -1,6 +1,7 @@
 //! Crowns as they are drawn.
 
 mod agreement;
+mod close_up;
 mod files;
 mod lighting;
 mod live;
@@ -12,22 +13,26 @@ use std::sync::LazyLock;
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Pixels, Shot, Studio, broadleaf_crown};
-use bevy_verdure::plants::Broadleaf;
+use bevy_verdure::plants::{Broadleaf, BroadleafMeshes};
 use bevy_verdure::prelude::*;
 
 /// Size of the tests' pictures, in pixels.
 const SIZE: UVec2 = UVec2::new(160, 120);
 
-/// A small broadleaf, baked with 64² pixels a slice.
-static CROWN: LazyLock<Slicing> = LazyLock::new(|| {
-    let tree = Broadleaf {
+/// A small broadleaf.
+static TREE: LazyLock<BroadleafMeshes> = LazyLock::new(|| {
+    Broadleaf {
         twig_triangles: 900,
         leaf_triangles: 2400,
         leaf_length: 0.45,
         ..default()
     }
-    .grow(3);
-    let crown = broadleaf_crown(&tree).expect("a broadleaf's meshes can be baked");
+    .grow(3)
+});
+
+/// Its crown, baked with 64² pixels a slice.
+static CROWN: LazyLock<Slicing> = LazyLock::new(|| {
+    let crown = broadleaf_crown(&TREE).expect("a broadleaf's meshes can be baked");
     let settings = BakeSettings {
         samples: 2,
         ..BakeSettings::default().with_pixels(64)
@@ -68,6 +73,28 @@ fn plant(studio: &mut Studio, settings: CrownSettings, transform: Transform) -> 
     world
         .spawn((SlicedCrown(slicing), settings, transform))
         .id()
+}
+
+/// Plants the triangles that the crown was baked from.
+fn plant_mesh(studio: &mut Studio, unlit: bool) -> Vec<Entity> {
+    let world = studio.world();
+    let green = world
+        .resource_mut::<Assets<StandardMaterial>>()
+        .add(StandardMaterial {
+            perceptual_roughness: 0.75,
+            reflectance: 0.3,
+            double_sided: true,
+            cull_mode: None,
+            unlit,
+            ..default()
+        });
+    let parts = [&TREE.twigs, &TREE.leaves];
+    let parts = parts.map(|mesh| world.resource_mut::<Assets<Mesh>>().add(mesh.clone()));
+    let plant = |mesh| {
+        let look = (Mesh3d(mesh), MeshMaterial3d(green.clone()));
+        world.spawn(look).id()
+    };
+    parts.into_iter().map(plant).collect()
 }
 
 /// A studio with one crown.
