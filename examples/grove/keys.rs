@@ -1,7 +1,9 @@
 //! What keys change.
 
+use bevy::camera::visibility::VisibilityRange;
 use bevy::prelude::*;
 use bevy_verdure::prelude::*;
+use bevy_verdure::slicing::close_up;
 
 use super::trees::{Drawn, MeshCrown};
 use super::walk::Walk;
@@ -11,7 +13,12 @@ use super::walk::Walk;
 pub struct Shown {
     pub drawn: Drawn,
     pub settings: CrownSettings,
+    /// Whether crowns of slices give over to their triangles right up close.
+    pub close_up: bool,
 }
+
+/// Metres from the eye within which crowns give over to their triangles.
+const CLOSE_UP: core::ops::Range<f32> = 8.0..12.0;
 
 pub fn press(
     keys: Res<ButtonInput<KeyCode>>,
@@ -39,6 +46,9 @@ pub fn press(
             Drawn::Mesh => Drawn::Slicing,
             Drawn::Slicing => Drawn::Mesh,
         };
+    }
+    if pressed(KeyCode::KeyN) {
+        shown.close_up = !shown.close_up;
     }
     let mut settings = shown.settings;
     if pressed(KeyCode::KeyF) {
@@ -74,12 +84,15 @@ pub fn press(
 /// Shows crowns as they are wanted.
 pub fn show(
     shown: Res<Shown>,
-    mut crowns: Query<(&mut CrownSettings, &mut Visibility), Without<MeshCrown>>,
-    mut meshes: Query<&mut Visibility, With<MeshCrown>>,
+    mut commands: Commands,
+    mut crowns: Query<(Entity, &mut CrownSettings, &mut Visibility), Without<MeshCrown>>,
+    mut meshes: Query<(Entity, &mut Visibility), With<MeshCrown>>,
 ) {
     if !shown.is_changed() {
         return;
     }
+    let slices = shown.drawn == Drawn::Slicing;
+    let both = slices && shown.close_up;
     let visibility = |is_shown| {
         if is_shown {
             Visibility::Inherited
@@ -87,11 +100,22 @@ pub fn show(
             Visibility::Hidden
         }
     };
-    for (mut settings, mut is_visible) in &mut crowns {
+    let [near, far] = close_up(CLOSE_UP);
+    let mut limit = |entity, range: &VisibilityRange| {
+        let mut entity = commands.entity(entity);
+        if both {
+            entity.insert(range.clone());
+        } else {
+            entity.remove::<VisibilityRange>();
+        }
+    };
+    for (entity, mut settings, mut is_visible) in &mut crowns {
         settings.set_if_neq(shown.settings);
-        is_visible.set_if_neq(visibility(shown.drawn == Drawn::Slicing));
+        is_visible.set_if_neq(visibility(slices));
+        limit(entity, &far);
     }
-    for mut is_visible in &mut meshes {
-        is_visible.set_if_neq(visibility(shown.drawn == Drawn::Mesh));
+    for (entity, mut is_visible) in &mut meshes {
+        is_visible.set_if_neq(visibility(!slices || both));
+        limit(entity, &near);
     }
 }

@@ -24,7 +24,7 @@ use trees::{Drawn, Grove};
 use walk::Walk;
 
 /// Walks through a grove. Keys: M meshes or slicings, F frames round slices, H hashed or blended, B the paper's order,
-/// L lighting, X leaves back slices out, G wind, P the recorded walk.
+/// L lighting, X leaves back slices out, N triangles right up close, G wind, P the recorded walk.
 #[derive(Parser)]
 struct Args {
     /// Number of trees.
@@ -51,6 +51,9 @@ struct Args {
     /// The paper's order of slices.
     #[arg(long)]
     paper: bool,
+    /// Slices right up close too, where crowns give over to their triangles otherwise.
+    #[arg(long)]
+    slices_alone: bool,
     /// Frames round slices.
     #[arg(long)]
     edges: bool,
@@ -103,6 +106,7 @@ fn run(args: &Args) -> Result<(), String> {
     let grove = Grove::grow(args.seed, args.pixels, args.slicing.as_deref())?;
     let walk = Walk::new(args.trees, args.from, args.stride, args.eye.is_some());
     let (eye, at) = args.eye.map_or_else(|| walk.view(), |eye| (eye, args.at));
+    let close_up = !args.slices_alone;
     let (trees, seed, drawn) = (args.trees, args.seed, args.drawn);
     let wind = Wind::new(Vec3::X * args.wind);
     let stage = Stage {
@@ -120,7 +124,11 @@ fn run(args: &Args) -> Result<(), String> {
             })
             .insert_resource(wind)
             .insert_resource(walk)
-            .insert_resource(keys::Shown { drawn, settings })
+            .insert_resource(keys::Shown {
+                drawn,
+                settings,
+                close_up,
+            })
             .insert_resource(grove)
             .add_systems(
                 Startup,

@@ -43,6 +43,7 @@
 
 pub mod bake;
 pub mod blend;
+mod close_up;
 mod component;
 mod document;
 mod error;
@@ -76,6 +77,7 @@ pub use bake::{
     Separation, bake, bake_with_progress, separate,
 };
 pub use blend::{DrawnSlice, SliceOrder};
+pub use close_up::close_up;
 pub use component::{Composition, CrownSettings, CrownTint, SlicedCrown};
 pub use document::{Picture, SlicingDocument, read_picture};
 pub use error::{SlicingError, SlicingFileError, SlicingFileErrorKind};

@@ -1,13 +1,15 @@
 //! View blending (§2.3): which slicings are drawn for an eye, how opaque, and in what order.
 //!
-//! `weights.rs` finds the slicings and their weights, `detail.rs` the level; here they become slices, far to near.
+//! `weights.rs` finds the slicings and their weights, `detail.rs` the level, `cast.rs` what casts shadows; here they become slices, far to near.
 //! `shaders/blend.wgsl` has the same functions by the same names.
 
 use bevy::math::Vec3;
 
+mod cast;
 mod detail;
 mod weights;
 
+pub use cast::{DENSEST, cast_slices, facing, first_leaf};
 pub use detail::{FOCAL, levels};
 pub use weights::{ALONE, SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slots};
 
@@ -79,45 +81,6 @@ pub fn drawn_slices(
         }
     }
     drawn
-}
-
-/// The slices that cast shadows for light from `direction` (unit), that of a directional light, into a shadow map in which
-/// the crown is as small as it apparently is so many radii away: those of the nearest orientation, in the level of
-/// detail next to that for such a size, which no picture shows but frame times do (in the paper's order, the finest). What
-/// is next to the light comes first, and hides the rest from the depth test on.
-pub fn cast_slices(
-    shape: &SlicingShape,
-    direction: Vec3,
-    distance: f32,
-    order: SliceOrder,
-) -> Vec<DrawnSlice> {
-    let (level, share) = levels(shape, distance, order);
-    let level = match order {
-        SliceOrder::Paper => 0,
-        SliceOrder::Steady => {
-            let next = level + 1 + usize::from(share < 0.5);
-            next.min(shape.levels.len() - 1)
-        }
-    };
-    let count = shape.levels[level];
-    let (mut nearest, mut greatest) = (0, -2.0);
-    for (i, o) in shape.orientations.iter().enumerate() {
-        let cosine = o.direction.dot(direction);
-        if cosine > greatest {
-            (nearest, greatest) = (i as u32, cosine);
-        }
-    }
-    let slice = |number| DrawnSlice {
-        orientation: nearest,
-        level: level as u32,
-        index: if greatest >= 0.0 {
-            count - 1 - number
-        } else {
-            number
-        },
-        opacity: 1.0,
-    };
-    (0..count).map(slice).collect()
 }
 
 /// 0 up to `low`, 1 from `high`, and an S between.

@@ -184,8 +184,8 @@ fn levels_of_detail_take_over_with_distance_and_the_vertical_slicing_from_above_
 fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
     let shape = shape(Orientations::Circle(6), true);
     for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {
-        for (distance, count) in [(1.0, 3), (9.9, 3), (10.1, 1), (24.0, 1), (26.0, 1)] {
-            let cast = cast_slices(&shape, light, distance, SliceOrder::Steady);
+        for (order, count) in [(SliceOrder::Steady, 1), (SliceOrder::Paper, 5)] {
+            let cast = cast_slices(&shape, light, order);
             // The slice next to the light has the greatest number, and comes first.
             let numbers: Vec<u32> = cast.iter().map(|s| s.index).collect();
             assert_eq!(numbers, (0..count).rev().collect::<Vec<u32>>());
@@ -195,8 +195,66 @@ fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
                 "{light}"
             );
         }
-        let paper = cast_slices(&shape, light, 26.0, SliceOrder::Paper);
-        assert_eq!(paper.len(), 5);
+    }
+}
+
+#[test]
+fn light_thins_out_on_its_way_through_leaves_that_are_spread_evenly() {
+    for alpha in [0.05, 0.3, 0.7] {
+        // Lots that are drawn at even distances are drawn as often as any; those of `alpha` or more meet no leaf.
+        let lots = (0..20_000).map(|i| (i as f32 + 0.5) / 20_000.0);
+        let depths: Vec<f32> = lots
+            .map(|lot| {
+                if lot < alpha {
+                    first_leaf(lot, alpha)
+                } else {
+                    2.0
+                }
+            })
+            .collect();
+        for t in [0.25, 0.5, 0.75] {
+            let left = depths.iter().filter(|depth| **depth > t).count() as f32 / 20_000.0;
+            // One lot more or less.
+            assert!(
+                (left - (1.0 - alpha).powf(t)).abs() < 2e-4,
+                "{alpha} {t}: {left}"
+            );
+        }
+        assert!(depths.iter().all(|t| (0.0..=1.0).contains(t) || *t == 2.0));
+    }
+    assert_eq!(first_leaf(0.99, 1.0), 1.0);
+}
+
+#[test]
+fn a_slice_that_faces_the_light_casts_the_shadow_of_an_ellipsoid() {
+    let o = Orientation {
+        direction: Vec3::Z,
+        right: Vec3::X,
+        up: Vec3::Y,
+        low: Vec3::new(-2.0, -3.0, -1.5),
+        high: Vec3::new(2.0, 3.0, 1.5),
+    };
+    let half = 0.5 * (o.high - o.low);
+    for light in [
+        Vec3::Z,
+        Vec3::NEG_Z,
+        Vec3::new(0.6, 0.0, 0.8),
+        Vec3::new(0.0, -0.7, -0.714),
+    ] {
+        let light = light.normalize();
+        for i in 0..16 {
+            let (sin, cos) = (i as f32 * 0.3927).sin_cos();
+            let edge = Vec3::new(half.x * cos, half.y * sin, 0.0);
+            let cast = facing(&o, light, edge);
+            assert!(cast.dot(light).abs() < 1e-5, "it faces the light");
+            // A ray on the ellipsoid's outline touches it: the quadratic for where they meet has one root.
+            let (p, d) = (cast / half, light / half);
+            let discriminant = p.dot(d).powi(2) - d.dot(d) * (p.dot(p) - 1.0);
+            assert!(
+                discriminant.abs() < 1e-4 * d.dot(d),
+                "{light} {i}: {discriminant}"
+            );
+        }
     }
 }
 

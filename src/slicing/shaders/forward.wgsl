@@ -7,7 +7,7 @@
 #import bevy_pbr::mesh_bindings::mesh
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
-#import bevy_verdure::slicing::lots::{cells, footprint, is_there}
+#import bevy_verdure::slicing::lots::{cells, footprint, lot_of}
 #import bevy_verdure::lighting::simple::{Leaf, simple_light}
 
 // Opacity below which a place is not worth its light.
@@ -24,9 +24,12 @@ fn vertex(corner: Corner) -> Varying {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
+#ifdef VISIBILITY_RANGE_DITHER
+    pbr_functions::visibility_range_dither(in.position, in.dither);
+#endif
     var seen = slice_color(in);
 #ifdef CROWN_HASHED
-    let is_seen = is_there(in.uv, cells(footprint(in.uv)), in.lot, seen.a);
+    let is_seen = lot_of(in.uv, cells(footprint(in.uv)), in.lot) < seen.a;
     seen.a = 1.0;
 #else
     let is_seen = seen.a >= LEAST;

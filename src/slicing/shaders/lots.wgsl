@@ -19,9 +19,9 @@ fn footprint(uv: vec2<f32>) -> f32 {
     return max(length(dpdx(uv)), length(dpdy(uv)));
 }
 
-// Whether a place of an opacity is there.
-fn is_there(uv: vec2<f32>, cells: f32, lot: u32, alpha: f32) -> bool {
+// What is drawn for a place, from 0 to 1: it is there where that is less than its opacity.
+fn lot_of(uv: vec2<f32>, cells: f32, lot: u32) -> f32 {
     let cell = vec2<u32>(floor(uv * cells));
     let number = pcg(cell.x + pcg(cell.y + lot));
-    return f32(number) * (1.0 / 4294967296.0) < alpha;
+    return f32(number) * (1.0 / 4294967296.0);
 }

@@ -7,9 +7,13 @@
 #import bevy_render::globals::Globals
 #import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
 #import bevy_verdure::slicing::types::{crown, octagons, first_layer}
-#import bevy_verdure::slicing::blend::{FOCAL, drawn_slice, cast_slice}
+#import bevy_verdure::slicing::blend::{FOCAL, cast_slice, drawn_slice, facing}
 #import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
+
+#ifdef VISIBILITY_RANGE_DITHER
+#import bevy_pbr::mesh_functions::get_visibility_range_dither_level
+#endif
 
 #ifdef PREPASS_PIPELINE
 @group(0) @binding(1) var<uniform> globals: Globals;
@@ -19,9 +23,6 @@
 
 // How far slices near to the eye flutter besides, as a share of the crown's sway.
 const FLUTTER: f32 = 0.25;
-
-// By what share of their spacing slices that cast shadows are moved away from the light.
-const DEEPER: f32 = 0.25;
 
 struct Corner {
     @builtin(instance_index) instance_index: u32,
@@ -37,11 +38,19 @@ struct Varying {
     @location(3) @interpolate(flat) instance_index: u32,
     // Tells the lots of this slice from those of others.
     @location(4) @interpolate(flat) lot: u32,
+#ifdef VISIBILITY_RANGE_DITHER
+    // How much of the crown its near mesh, or nothing, takes over, as Bevy has it.
+    @location(13) @interpolate(flat) dither: i32,
+#endif
 #ifdef CROWN_LIGHT_VIEW
     // Cells that lots are drawn for, along a side of the slice.
     @location(5) @interpolate(flat) grid: f32,
     // The mip level whose pixels are the cells, or the finest.
     @location(6) @interpolate(flat) mip: u32,
+    // From where to where the leaves of this slice lie, of 1 next to the light to -1, ...
+    @location(7) @interpolate(flat) share: vec2<f32>,
+    // ... and 1 in the shadow map's depth.
+    @location(8) @interpolate(flat) deep: f32,
 #else
     // In linear light.
     @location(5) @interpolate(flat) tint: vec3<f32>,
@@ -53,8 +62,10 @@ struct Varying {
     // Direction of the slice, local, where its back is seen; else none.
     @location(10) @interpolate(flat) back: vec3<f32>,
 #ifdef PREPASS_PIPELINE
-    @location(11) local_position: vec3<f32>,
+    @location(12) local_position: vec3<f32>,
 #endif
+    // The mip level that suits the slice's size.
+    @location(11) @interpolate(flat) lod: f32,
 #endif
 }
 
@@ -115,6 +126,16 @@ fn apparent_distance(instance_index: u32, distance: f32) -> f32 {
     return distance * FOCAL / pixels_per_metre();
 }
 
+// The mip level for a slice of so many local metres, so many away. Between two levels only for a quarter of all sizes:
+// drivers in software filter one level where it is a whole number.
+fn mip_level(size: f32, distance: f32, instance_index: u32) -> f32 {
+    let away = select(distance * metre(instance_index), 1.0, is_orthographic());
+    let pixels = size * metre(instance_index) * pixels_per_metre() / max(away, 1e-6);
+    let most = f32(firstLeadingBit(crown.pixels));
+    let level = clamp(log2(f32(crown.pixels) / pixels), 0.0, most);
+    return floor(level) + saturate(4.0 * fract(level) - 1.5);
+}
+
 fn place_corner(in: Corner) -> Varying {
     var out: Varying;
     // What is not drawn collapses to a point outside the view.
@@ -123,10 +144,10 @@ fn place_corner(in: Corner) -> Varying {
     let eye = eye_from_centroid(in.instance_index);
     let distance = length(eye);
     let direction = select(vec3(0.0, 0.0, 1.0), eye / distance, distance > 0.0);
-    let apparent = apparent_distance(in.instance_index, distance);
 #ifdef CROWN_LIGHT_VIEW
-    let slice = cast_slice(in.corner >> 3u, direction, apparent);
+    let slice = cast_slice(in.corner >> 3u, direction);
 #else
+    let apparent = apparent_distance(in.instance_index, distance);
     let slice = drawn_slice(in.corner >> 3u, direction, apparent);
 #endif
     if slice.opacity <= 0.0 {
@@ -148,16 +169,14 @@ fn place_corner(in: Corner) -> Varying {
 #endif
     let size = o.high - o.low;
     let spacing = size.z / f32(count);
-    var depth = o.low.z + (f32(slice.index) + 0.5) * spacing;
+    let depth = o.low.z + (f32(slice.index) + 0.5) * spacing;
+    let flat = o.right * (o.low.x + uv.x * size.x) + o.up * (o.high.y - uv.y * size.y);
 #ifdef CROWN_LIGHT_VIEW
-    // Leaves lie up to half the spacing before and behind the slice that their light meets, and before and behind that
-    // which the eye sees: cast from a little deeper, few shade themselves, and those of one slice still shade each other.
-    depth -= select(-DEEPER, DEEPER, faces) * spacing;
+    let middle = 0.5 * o.direction * (o.low.z + o.high.z);
+    let local = crown.centroid + middle + facing(o, direction, flat);
+#else
+    let local = crown.centroid + flat + o.direction * depth;
 #endif
-    let local = crown.centroid
-        + o.right * (o.low.x + uv.x * size.x)
-        + o.up * (o.high.y - uv.y * size.y)
-        + o.direction * depth;
 
     let m = mesh[in.instance_index].world_from_local;
     let origin = vec3(m[0].w, m[1].w, m[2].w);
@@ -175,21 +194,26 @@ fn place_corner(in: Corner) -> Varying {
     let from_eye = world_from_local(in.instance_index) * local + (origin - view.world_position) + moved;
     let v = view.view_from_world;
     var clip = view.clip_from_view * vec4(mat3x3(v[0].xyz, v[1].xyz, v[2].xyz) * from_eye, 1.0);
-#ifdef CROWN_LIGHT_VIEW
-    // What is nearer to the sun than its shadow map casts shadows all the same.
-    clip.z = min(clip.z, 1.0);
-#endif
     out.position = clip;
     out.uv = uv;
     out.layer = layer;
     out.opacity = slice.opacity;
     let tag = mesh[in.instance_index].tag;
     out.lot = pcg(layer + (tag >> 24u) * 256u);
+#ifdef VISIBILITY_RANGE_DITHER
+    out.dither = get_visibility_range_dither_level(in.instance_index, vec4(origin, 1.0));
+#endif
 #ifdef CROWN_LIGHT_VIEW
     let width = max(size.x, size.y) * metre(in.instance_index) * pixels_per_metre();
     out.grid = cells(1.0 / width);
     out.mip = u32(max(log2(f32(crown.pixels) / out.grid), 0.0));
+    let next = f32(select(slice.index, count - 1u - slice.index, faces));
+    out.share = 1.0 - 2.0 * vec2(next, next + 1.0) / f32(count);
+    // Half the way of light through an ellipsoid.
+    let axes = vec3(dot(direction, o.right), dot(direction, o.up), dot(direction, o.direction));
+    out.deep = 0.5 / length(axes / size) * metre(in.instance_index) * view.clip_from_view[2].z;
 #else
+    out.lod = mip_level(max(size.x, size.y), length(eye * crown.radius - o.direction * depth), in.instance_index);
     out.tint = tint(tag);
     out.world_position = from_eye + view.world_position;
     let turn = turn_of_normals(in.instance_index);

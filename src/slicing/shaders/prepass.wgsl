@@ -2,22 +2,48 @@
 
 #import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
 #import bevy_pbr::mesh_view_bindings::view
+#import bevy_verdure::slicing::blend::first_leaf
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
-#import bevy_verdure::slicing::lots::{cells, footprint, is_there}
+#import bevy_verdure::slicing::lots::{cells, footprint, lot_of}
+#ifdef VISIBILITY_RANGE_DITHER
+#import bevy_pbr::pbr_functions::visibility_range_dither
+#endif
 
 @vertex
 fn vertex(corner: Corner) -> Varying {
     return place_corner(corner);
 }
 
-fn is_seen(in: Varying) -> bool {
 #ifdef CROWN_LIGHT_VIEW
-    let grid = in.grid;
-#else
-    let grid = cells(footprint(in.uv));
+
+// Leaves lie at depths by chance, as light would meet them in an ellipsoid that fills the slicing box: one slice shades
+// itself as softly as the leaves do that are drawn into it.
+@fragment
+fn fragment(in: Varying) -> @builtin(frag_depth) f32 {
+#ifdef VISIBILITY_RANGE_DITHER
+    visibility_range_dither(in.position, in.dither);
 #endif
-    return is_there(in.uv, grid, in.lot, slice_color(in).a);
+    let alpha = slice_color(in).a;
+    let lot = lot_of(in.uv, in.grid, in.lot);
+    if lot >= alpha {
+        discard;
+    }
+    let p = 2.0 * in.uv - 1.0;
+    let half = sqrt(max(1.0 - dot(p, p), 0.0));
+    let near = min(in.share.x, half);
+    let far = max(in.share.y, -half);
+    // What is nearer to the sun than its shadow map casts shadows all the same.
+    return clamp(in.position.z + in.deep * mix(near, far, first_leaf(lot, alpha)), 0.0, 1.0);
+}
+
+#else
+
+fn is_seen(in: Varying) -> bool {
+#ifdef VISIBILITY_RANGE_DITHER
+    visibility_range_dither(in.position, in.dither);
+#endif
+    return lot_of(in.uv, cells(footprint(in.uv)), in.lot) < slice_color(in).a;
 }
 
 #ifdef PREPASS_FRAGMENT
@@ -28,9 +54,6 @@ struct Output {
 #endif
 #ifdef MOTION_VECTOR_PREPASS
     @location(1) motion_vector: vec2<f32>,
-#endif
-#ifdef UNCLIPPED_DEPTH_ORTHO_EMULATION
-    @builtin(frag_depth) depth: f32,
 #endif
 }
 
@@ -50,10 +73,6 @@ fn fragment(in: Varying) -> Output {
     // In texture coordinates: clip space is two wide, and its y points up.
     out.motion_vector = (clip.xy / clip.w - clip_before.xy / clip_before.w) * vec2(0.5, -0.5);
 #endif
-#ifdef UNCLIPPED_DEPTH_ORTHO_EMULATION
-    // The vertex stage has brought what is nearer than the shadow map to its near plane.
-    out.depth = in.position.z;
-#endif
     return out;
 }
 
@@ -65,5 +84,7 @@ fn fragment(in: Varying) {
         discard;
     }
 }
+
+#endif
 
 #endif

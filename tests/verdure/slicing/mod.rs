@@ -2,6 +2,7 @@
 
 mod agreement;
 mod brightness;
+mod close_up;
 mod draws;
 mod files;
 mod intersecting;
@@ -82,22 +83,26 @@ fn plant(studio: &mut Studio, settings: CrownSettings, transform: Transform) -> 
         .id()
 }
 
-/// Plants the triangles that the crown was baked from, in their own colours.
-fn plant_mesh(studio: &mut Studio, transform: Transform) -> Entity {
+/// Plants the triangles that the crown was baked from, lit or in their own colours.
+fn plant_mesh(studio: &mut Studio, transform: Transform, unlit: bool) -> Vec<Entity> {
     let world = studio.world();
-    let colors = StandardMaterial {
-        unlit: true,
-        cull_mode: None,
-        ..default()
+    let green = world
+        .resource_mut::<Assets<StandardMaterial>>()
+        .add(StandardMaterial {
+            perceptual_roughness: 0.75,
+            reflectance: 0.3,
+            double_sided: true,
+            cull_mode: None,
+            unlit,
+            ..default()
+        });
+    let parts = [&TREE.twigs, &TREE.leaves];
+    let parts = parts.map(|mesh| world.resource_mut::<Assets<Mesh>>().add(mesh.clone()));
+    let plant = |mesh| {
+        let look = (Mesh3d(mesh), MeshMaterial3d(green.clone()), transform);
+        world.spawn(look).id()
     };
-    let colors = world.resource_mut::<Assets<StandardMaterial>>().add(colors);
-    let parts = [&TREE.twigs, &TREE.leaves]
-        .map(|mesh| world.resource_mut::<Assets<Mesh>>().add(mesh.clone()));
-    let mut crown = world.spawn((transform, Visibility::default()));
-    for mesh in parts {
-        crown.with_child((Mesh3d(mesh), MeshMaterial3d(colors.clone())));
-    }
-    crown.id()
+    parts.into_iter().map(plant).collect()
 }
 
 /// A studio with one crown.

@@ -29,13 +29,15 @@ fn range() -> [(u8, u8); 3] {
 /// alone.
 fn check(shots: &[(String, Shot)]) {
     let mut studio = Studio::default();
-    let mesh = plant_mesh(&mut studio, Transform::IDENTITY);
+    let mesh = plant_mesh(&mut studio, Transform::IDENTITY, true);
     studio.headless.step();
     let references: Vec<_> = shots
         .iter()
         .map(|(_, shot)| photograph(&mut studio, shot))
         .collect();
-    studio.world().despawn(mesh);
+    for part in mesh {
+        studio.world().despawn(part);
+    }
     let crown = plant(&mut studio, UNLIT, Transform::IDENTITY);
     studio.headless.step();
     let range = range();
