@@ -6,9 +6,10 @@
 //! |---|---|---|
 //! | [`skeleton`] | joints, segments, poses; files; what a plant is before it has a surface | |
 //! | [`frusta`] | solid parts: a cone round each segment, ray cast per pixel | `skeleton` |
-//! | [`slicing`] | sparse parts: crowns of twigs and leaves, baked into blended slices | `wind` |
-//! | [`texel`] | repeated cover: a volume in slices, mapped on a surface | `wind` |
+//! | [`slicing`] | sparse parts: crowns of twigs and leaves, baked into blended slices | `wind`, `lighting` |
+//! | [`texel`] | repeated cover: a volume in slices, mapped on a surface | `wind`, `lighting` |
 //! | [`wind`] | the wind of a scene, in which crowns and texels sway | |
+//! | [`lighting`] | what lights crowns and texels: as Bevy does, or at less cost | |
 //! | [`plants`] | skeletons grown from a seed: palms, pines, cacti, and scenes of them | `skeleton` |
 //! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
 //!
@@ -22,6 +23,7 @@ mod draw_functions;
 pub mod frusta;
 #[cfg(feature = "lab")]
 pub mod lab;
+pub mod lighting;
 mod pipeline;
 pub mod plants;
 mod ron_text;
@@ -42,13 +44,14 @@ pub mod prelude {
         MeshSettings, Relief, ReliefMarch, ReliefSteps, ReliefThickness, ShadingNormals,
         frusta_material, relief_material,
     };
+    pub use crate::lighting::PlantLighting;
     pub use crate::skeleton::{
         Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,
         UnfoldSkeleton,
     };
     pub use crate::slicing::{
-        BakeSettings, Composition, CrownLighting, CrownMaterial, CrownMesh, CrownSettings,
-        CrownTint, Orientations, SliceOrder, SlicedCrown, Slicing, bake,
+        BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
+        Orientations, SliceOrder, SlicedCrown, Slicing, bake,
     };
     pub use crate::texel::{
         LiveTexels, TexelCycle, TexelHeights, TexelQuality, TexelSettings, TexelSurface,

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each example uses its part of it")]
 
+pub mod light;
 pub mod stage;
 pub mod texture;
 

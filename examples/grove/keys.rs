@@ -46,9 +46,9 @@ pub fn press(
     }
     if pressed(KeyCode::KeyL) {
         settings.lighting = match settings.lighting {
-            CrownLighting::Simple => CrownLighting::Full,
-            CrownLighting::Full => CrownLighting::Unlit,
-            CrownLighting::Unlit => CrownLighting::Simple,
+            PlantLighting::Simple => PlantLighting::Full,
+            PlantLighting::Full => PlantLighting::Unlit,
+            PlantLighting::Unlit => PlantLighting::Simple,
         };
     }
     if pressed(KeyCode::KeyX) {

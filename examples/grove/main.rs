@@ -18,6 +18,7 @@ use bevy_verdure::lab::CommonArgs;
 use bevy_verdure::prelude::*;
 use clap::{Parser, ValueEnum};
 
+use common::light::Light;
 use common::stage::Stage;
 use trees::{Drawn, Grove};
 use walk::Walk;
@@ -79,13 +80,6 @@ enum Cover {
     Hashed,
 }
 
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Light {
-    Full,
-    Simple,
-    Unlit,
-}
-
 fn main() -> std::process::ExitCode {
     let args = Args::parse();
     common::exit(run(&args))
@@ -102,11 +96,7 @@ fn run(args: &Args) -> Result<(), String> {
         } else {
             SliceOrder::Steady
         },
-        lighting: match args.light {
-            Light::Full => CrownLighting::Full,
-            Light::Simple => CrownLighting::Simple,
-            Light::Unlit => CrownLighting::Unlit,
-        },
+        lighting: args.light.into(),
         frames: args.edges,
         ..default()
     };

@@ -18,17 +18,17 @@ pub fn against_trees(lab: &mut Lab) -> Result<Chart, String> {
     let ways: [Way; 7] = [
         ("mesh".into(), Drawn::Mesh, true),
         ("mesh, no shadows cast".into(), Drawn::Mesh, false),
-        ("full light".into(), lit(CrownLighting::Full), true),
-        ("simple light".into(), lit(CrownLighting::Simple), true),
-        ("unlit".into(), lit(CrownLighting::Unlit), true),
+        ("full light".into(), lit(PlantLighting::Full), true),
+        ("simple light".into(), lit(PlantLighting::Simple), true),
+        ("unlit".into(), lit(PlantLighting::Unlit), true),
         (
             "simple light, no shadows cast".into(),
-            lit(CrownLighting::Simple),
+            lit(PlantLighting::Simple),
             false,
         ),
         (
             "unlit, no shadows cast".into(),
-            lit(CrownLighting::Unlit),
+            lit(PlantLighting::Unlit),
             false,
         ),
     ];

@@ -10,12 +10,14 @@ mod common;
 
 use bevy::core_pipeline::prepass::DepthPrepass;
 use bevy::light::NotShadowCaster;
+use bevy::mesh::skinning::SkinnedMeshInverseBindposes;
 use bevy::prelude::*;
 use bevy_verdure::lab::CommonArgs;
-use bevy_verdure::lab::texel_scenes::{TexelScene, surfaces};
+use bevy_verdure::lab::texel_scenes::{TexelScene, bend_knees, joints, surfaces};
 use bevy_verdure::prelude::*;
 use clap::Parser;
 
+use common::light::Light;
 use common::stage::Stage;
 
 /// Shows texels.
@@ -36,6 +38,9 @@ struct Args {
     /// p: pixels between slices that are close enough for any depth.
     #[arg(long, default_value_t = TexelQuality::default().pixels)]
     pixels: f32,
+    /// The least angle, in radians, that slices are chosen for.
+    #[arg(long, default_value_t = TexelQuality::default().least_angle)]
+    least_angle: f32,
     /// The most slices a texel.
     #[arg(long, default_value_t = TexelSettings::default().most_slices)]
     most: u32,
@@ -45,9 +50,9 @@ struct Args {
     /// Let texels cast no shadows.
     #[arg(long)]
     unshadowed: bool,
-    /// Show the volume's colours as they are.
-    #[arg(long)]
-    unlit: bool,
+    /// What lights the texels.
+    #[arg(long, value_enum, default_value_t = Light::Simple)]
+    light: Light,
     /// Draw a depth prepass first, so that no pixel is lit twice.
     #[arg(long)]
     prepass: bool,
@@ -72,11 +77,12 @@ fn run(args: &Args) -> Result<(), String> {
         quality: TexelQuality {
             depth: args.depth,
             pixels: args.pixels,
+            least_angle: args.least_angle,
             ..default()
         },
         most_slices: args.most,
         flexibility: scene.flexibility(),
-        lit: !args.unlit,
+        lighting: args.light.into(),
         ..default()
     };
     let volume = scene.volume()?;
@@ -95,7 +101,7 @@ fn run(args: &Args) -> Result<(), String> {
     common::run(&title, &args.common, move |app| {
         app.add_plugins(stage)
             .insert_resource(wind)
-            .add_systems(Update, wave)
+            .add_systems(Update, (wave, bend_knees))
             .insert_resource(common::Orbit {
                 centre: stage.centre,
                 speed: turns,
@@ -105,9 +111,12 @@ fn run(args: &Args) -> Result<(), String> {
                 move |mut commands: Commands,
                       mut meshes: ResMut<Assets<Mesh>>,
                       mut volumes: ResMut<Assets<TexelVolume>>,
+                      mut bindposes: ResMut<Assets<SkinnedMeshInverseBindposes>>,
                       mut materials: ResMut<Assets<StandardMaterial>>| {
                     let volume = volumes.add(volume.clone());
                     for surface in scene.surfaces() {
+                        let skin = (scene == TexelScene::Limb)
+                            .then(|| joints(&mut commands, &mut bindposes));
                         let mut entity = commands.spawn((
                             Mesh3d(meshes.add(surface.mesh)),
                             TexelSurface {
@@ -119,6 +128,9 @@ fn run(args: &Args) -> Result<(), String> {
                         ));
                         if scene == TexelScene::Flag {
                             entity.insert(LiveTexels);
+                        }
+                        if let Some(skin) = skin {
+                            entity.insert(skin);
                         }
                         if unshadowed {
                             entity.insert(NotShadowCaster);

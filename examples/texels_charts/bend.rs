@@ -156,7 +156,7 @@ fn error(
     let world = studio.world();
     let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh);
     let settings = TexelSettings {
-        lit: false,
+        lighting: PlantLighting::Unlit,
         ..default()
     };
     let covered = world.spawn((Mesh3d(mesh), surface, settings)).id();

@@ -26,10 +26,10 @@ pub fn against_depth(lab: &Lab) -> Result<Chart, String> {
     };
     let mut series = Vec::new();
     for (name, shot) in [("from the side", side), ("from above", above)] {
-        let whole = Whole::of(&mut stand, shot, true);
+        let whole = Whole::of(&mut stand, shot, PlantLighting::Simple);
         for pixels in [1.0, 2.0] {
             let points = depths.iter().map(|&depth| {
-                let settings = with(depth, pixels, true);
+                let settings = with(depth, pixels, PlantLighting::Simple);
                 let is_default = settings == TexelSettings::default();
                 let figures = whole.against(&mut stand, settings);
                 let label = format!("d {depth}");

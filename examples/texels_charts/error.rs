@@ -139,7 +139,7 @@ fn ways(lab: &Lab, field: &mut Field) -> Vec<Way> {
             ..default()
         };
         let settings = TexelSettings {
-            lit: false,
+            lighting: PlantLighting::Unlit,
             ..default()
         };
         let baked = field.add_volume(field.volume.baked(&light));

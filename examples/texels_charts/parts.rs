@@ -10,19 +10,29 @@ use bevy_verdure::prelude::*;
 
 use super::lab::Lab;
 
-/// A way to draw the texels: its name, whether they are lit, cast shadows, and have a depth prepass; none, if they are
-/// hidden.
-type Way = (&'static str, Option<[bool; 3]>);
+/// A way to draw the texels: its name, what lights them, whether they cast shadows, and have a depth prepass; none, if they
+/// are hidden.
+type Way = (&'static str, Option<(PlantLighting, [bool; 2])>);
 
-const WAYS: [Way; 6] = [
+const WAYS: [Way; 7] = [
     ("empty", None),
-    ("all", Some([true, true, false])),
-    ("with a depth prepass", Some([true, true, true])),
-    ("no shadows cast", Some([true, false, false])),
-    ("colours of the volume", Some([false, true, false])),
+    ("all", Some((PlantLighting::Simple, [true, false]))),
+    (
+        "with a depth prepass",
+        Some((PlantLighting::Simple, [true, true])),
+    ),
+    (
+        "no shadows cast",
+        Some((PlantLighting::Simple, [false, false])),
+    ),
+    ("full light", Some((PlantLighting::Full, [true, false]))),
+    (
+        "colours of the volume",
+        Some((PlantLighting::Unlit, [true, false])),
+    ),
     (
         "colours of the volume, no shadows cast",
-        Some([false, false, false]),
+        Some((PlantLighting::Unlit, [false, false])),
     ),
 ];
 
@@ -40,11 +50,15 @@ pub fn time(lab: &Lab) -> Result<Chart, String> {
             let world = headless.world();
             for surface in surfaces {
                 let mut surface = world.entity_mut(*surface);
-                let Some([lit, casts, _]) = way else {
+                let Some((lighting, [casts, _])) = way else {
                     surface.insert(Visibility::Hidden);
                     continue;
                 };
-                surface.insert((Visibility::Inherited, TexelSettings { lit, ..default() }));
+                let settings = TexelSettings {
+                    lighting,
+                    ..default()
+                };
+                surface.insert((Visibility::Inherited, settings));
                 if casts {
                     surface.remove::<NotShadowCaster>();
                 } else {
@@ -52,7 +66,7 @@ pub fn time(lab: &Lab) -> Result<Chart, String> {
                 }
             }
             let mut camera = world.entity_mut(camera);
-            if way.is_some_and(|[.., prepass]| prepass) {
+            if way.is_some_and(|(_, [_, prepass])| prepass) {
                 camera.insert(DepthPrepass);
             } else {
                 camera.remove::<DepthPrepass>();

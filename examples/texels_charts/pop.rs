@@ -58,7 +58,7 @@ pub fn along_a_flight(lab: &Lab) -> Result<Chart, String> {
     ] {
         let settings = TexelSettings {
             fade,
-            lit: false,
+            lighting: PlantLighting::Unlit,
             ..default()
         };
         let texels = field.cover(&handle, settings);

@@ -9,7 +9,10 @@ use super::lab::Lab;
 use super::whole::{Whole, aside, with};
 
 /// Whether the scene lights the texels, or they have the colours of the volume, as the paper's have.
-const LIGHTS: [(&str, bool); 2] = [("lit by the scene", true), ("colours of the volume", false)];
+const LIGHTS: [(&str, PlantLighting); 2] = [
+    ("lit by the scene", PlantLighting::Simple),
+    ("colours of the volume", PlantLighting::Unlit),
+];
 
 /// Slices of `sphere` for d and p over a range, beside all of them, and the difference between the pictures.
 pub fn against_settings(lab: &Lab) -> Result<Chart, String> {
@@ -23,11 +26,11 @@ pub fn against_settings(lab: &Lab) -> Result<Chart, String> {
         (&[0.25, 1.0, 2.0], &[0.25, 0.5, 1.0, 2.0, 4.0])
     };
     let default_quality = TexelQuality::default();
-    for (name, lit) in LIGHTS {
+    for (name, lighting) in LIGHTS {
         let shot = lab.shot(scene, 1.0);
-        let whole = Whole::of(&mut stand, shot, lit);
+        let whole = Whole::of(&mut stand, shot, lighting);
         let mut point = |depth: f32, pixels: f32, label: String| {
-            let settings = with(depth, pixels, lit);
+            let settings = with(depth, pixels, lighting);
             let figures = whole.against(&mut stand, settings);
             let is_default = settings.quality == default_quality;
             Point::from(figures).labelled(label).marked(is_default)
@@ -47,10 +50,10 @@ pub fn against_settings(lab: &Lab) -> Result<Chart, String> {
             series.push(Series::scatter(format!("{name}, d"), by_depth));
         }
         // What half a pixel does to the picture of all slices, to tell how much a figure is.
-        stand.set(all_slices(lit));
+        stand.set(all_slices(lighting));
         let moved = stand.photograph(&aside(&shot, 0.5)).rgb_bytes();
         println!(
-            "lit {lit}: all slices half a pixel aside, FLIP {:.4}",
+            "{lighting:?}: all slices half a pixel aside, FLIP {:.4}",
             whole.flip(&moved)
         );
     }
@@ -74,10 +77,13 @@ pub fn against_distance(lab: &Lab) -> Result<Chart, String> {
         &[0.7, 1.0, 2.0, 4.0, 8.0]
     };
     let mut series = Vec::new();
-    for (name, lit) in LIGHTS {
+    for (name, lighting) in LIGHTS {
         let points = distances.iter().map(|&distance| {
-            let whole = Whole::of(&mut stand, lab.shot(scene, distance), lit);
-            let settings = TexelSettings { lit, ..default() };
+            let whole = Whole::of(&mut stand, lab.shot(scene, distance), lighting);
+            let settings = TexelSettings {
+                lighting,
+                ..default()
+            };
             let (fewer, flip) = whole.against(&mut stand, settings);
             let (eye, at) = scene.view();
             let metres = f64::from(distance * eye.distance(at));

@@ -6,14 +6,14 @@ use bevy_verdure::lab::{Lens, Shot, mean_flip};
 use bevy_verdure::prelude::*;
 
 /// The criteria with some d, in e, and p, in pixels.
-pub fn with(depth: f32, pixels: f32, lit: bool) -> TexelSettings {
+pub fn with(depth: f32, pixels: f32, lighting: PlantLighting) -> TexelSettings {
     TexelSettings {
         quality: TexelQuality {
             depth,
             pixels,
             ..default()
         },
-        lit,
+        lighting,
         ..default()
     }
 }
@@ -27,8 +27,8 @@ pub struct Whole {
 
 impl Whole {
     /// Of a stand, lit by the scene or in the colours of the volume.
-    pub fn of(stand: &mut TexelStand, shot: Shot, lit: bool) -> Self {
-        let settings = all_slices(lit);
+    pub fn of(stand: &mut TexelStand, shot: Shot, lighting: PlantLighting) -> Self {
+        let settings = all_slices(lighting);
         stand.set(settings);
         Self {
             slices: stand.count(&shot, &settings).slices,
@@ -49,9 +49,9 @@ impl Whole {
         let slices = stand.count(&self.shot, &settings).slices;
         let fewer = self.slices as f64 / slices.max(1) as f64;
         let flip = self.flip(&stand.photograph(&self.shot).rgb_bytes());
-        let (quality, lit) = (settings.quality, settings.lit);
+        let (quality, lighting) = (settings.quality, settings.lighting);
         println!(
-            "lit {lit}, d {} e, p {}: {slices} of {} slices, {fewer:.2} times fewer, FLIP {flip:.4}",
+            "{lighting:?}, d {} e, p {}: {slices} of {} slices, {fewer:.2} times fewer, FLIP {flip:.4}",
             quality.depth, quality.pixels, self.slices
         );
         (fewer, flip)

@@ -7,6 +7,7 @@ use bevy::prelude::*;
 
 use super::blend::SliceOrder;
 use super::slicing::Slicing;
+use crate::lighting::PlantLighting;
 
 /// Draws a crown from its slicings. Scale and turn it with [`Transform`]; put what is solid, its trunk and limbs, on
 /// another entity beside it or above it.
@@ -46,8 +47,9 @@ pub struct CrownSettings {
     pub order: SliceOrder,
     /// How many of the furthest slices of each slicing are left out, as the paper allows (§2.3).
     pub left_out: u32,
-    /// What lights the crown.
-    pub lighting: CrownLighting,
+    /// What lights the crown. It is some ten slices deep and lit in each: of what `Full` takes among many trees on a software
+    /// driver, `Simple`, the default, takes two fifths and is hardly told from it, and `Unlit` a quarter.
+    pub lighting: PlantLighting,
     /// Whether each slice has a frame, as in the paper's Figure 3.
     pub frames: bool,
 }
@@ -63,25 +65,6 @@ pub enum Composition {
     /// Testing*, I3D 2017): no order, depth is written, so that prepasses and deferred rendering see the crown. Grainy
     /// without temporal anti-aliasing.
     Hashed,
-}
-
-/// What lights a [`SlicedCrown`]. A blended crown is some ten slices deep and lit in each, so that light is what costs
-/// most; the figures are shares of what [`Full`](Self::Full) takes on a software driver.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
-#[reflect(Clone, Debug, Default, PartialEq, Hash)]
-pub enum CrownLighting {
-    /// As Bevy lights a `StandardMaterial`: every kind of light, environment maps, gloss, filtered shadows.
-    Full,
-    /// Directional lights with their shadow maps, ambient light and fog. Leaves scatter light evenly, gloss included, and
-    /// shadows are looked up by the shadow map's own filter of two by two pixels alone; the layers of the crown do the
-    /// rest. Two fifths of `Full` among many trees, and hardly told from it.
-    ///
-    /// While the world has a point, spot or rectangular light, an environment map, an irradiance volume, a light with a
-    /// texture or an atmosphere, even a hidden one, such crowns are lit as by `Full`.
-    #[default]
-    Simple,
-    /// By nothing: the crown has the colours of its pictures, in fog. A quarter of `Full`.
-    Unlit,
 }
 
 /// Multiplies the light that a [`SlicedCrown`] sends back, channel by channel, so that neighbours differ, as the base colour

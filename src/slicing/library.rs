@@ -10,11 +10,11 @@ use bevy::prelude::*;
 use bevy::render::storage::ShaderBuffer;
 
 use super::component::{CrownSettings, CrownTint, SlicedCrown};
-use super::lights::CrownLights;
 use super::material::{CrownUniform, SlicedCrownMaterial};
 use super::mesh::crown_mesh;
 use super::slicing::Slicing;
 use super::upload::{bounds, images, octagons};
+use crate::lighting::SceneLights;
 use crate::wind::Wind;
 
 /// What crowns of one slicing share.
@@ -186,7 +186,7 @@ pub(crate) fn follow_wind(
 pub(crate) fn follow_lights(
     library: Res<CrownLibrary>,
     mut materials: ResMut<Assets<SlicedCrownMaterial>>,
-    lights: CrownLights,
+    lights: SceneLights,
 ) {
     let all = library.shared.values();
     for (settings, material) in all.flat_map(|shared| &shared.materials) {

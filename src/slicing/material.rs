@@ -16,11 +16,11 @@ use bevy::render::storage::ShaderBuffer;
 use bevy::shader::ShaderRef;
 
 use super::blend::SliceOrder;
-use super::component::{Composition, CrownLighting, CrownSettings};
-use super::lights::SceneLighting;
+use super::component::{Composition, CrownSettings};
 use super::limits::MAX_ORIENTATIONS;
 use super::mesh::ATTRIBUTE_CORNER;
 use super::slicing::SlicingShape;
+use crate::lighting::{PlantLighting, SceneLighting};
 use crate::pipeline::{define, embedded_shader, names};
 
 /// Metres that a crown's top gives for each metre a second of wind, for each metre of its radius.
@@ -174,9 +174,9 @@ impl Material for SlicedCrownMaterial {
         let defs = names([
             (crown.composition == Composition::Hashed, "CROWN_HASHED"),
             (crown.order == SliceOrder::Paper, "CROWN_PAPER_ORDER"),
-            (lighting == CrownLighting::Full, "CROWN_FULL_LIGHT"),
-            (lighting == CrownLighting::Simple, "CROWN_SIMPLE_LIGHT"),
-            (crown.lighting.more_suns, "CROWN_MORE_SUNS"),
+            (lighting == PlantLighting::Full, "CROWN_FULL_LIGHT"),
+            (lighting == PlantLighting::Simple, "CROWN_SIMPLE_LIGHT"),
+            (crown.lighting.more_suns, "MORE_SUNS"),
             (crown.frames, "CROWN_FRAMES"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
         ]);

@@ -15,7 +15,7 @@
 //! 3. For each view, the vertex shader picks the slicings of least discrepancy angle from the eye's position, their
 //!    opacities and the order of their slices (`blend/`, `shaders/blend.wgsl`), and places the slices
 //!    (`shaders/place.wgsl`). The fragment shaders light them by their baked normals, with the scene's lights, shadow maps
-//!    and fog (`shaders/forward.wgsl`), in a way that suits what is there (`lights.rs`, `shaders/simple.wgsl`), or let them
+//!    and fog (`shaders/forward.wgsl`), in a way that suits what is there ([`PlantLighting`](crate::lighting::PlantLighting)), or let them
 //!    cast shadows (`shaders/prepass.wgsl`).
 //!
 //! # How crowns are sorted
@@ -47,7 +47,6 @@ mod component;
 mod document;
 mod error;
 mod library;
-mod lights;
 mod limits;
 mod loader;
 mod material;
@@ -77,7 +76,7 @@ pub use bake::{
     Separation, bake, bake_with_progress, separate,
 };
 pub use blend::{DrawnSlice, SliceOrder};
-pub use component::{Composition, CrownLighting, CrownSettings, CrownTint, SlicedCrown};
+pub use component::{Composition, CrownSettings, CrownTint, SlicedCrown};
 pub use document::{Picture, SlicingDocument, read_picture};
 pub use error::{SlicingError, SlicingFileError, SlicingFileErrorKind};
 pub use limits::{
@@ -90,6 +89,7 @@ pub use orientation::{Orientation, Orientations};
 pub use slicing::{Slicing, SlicingShape};
 
 use crate::VerdureSystems;
+use crate::lighting::LightingPlugin;
 use crate::wind::Wind;
 
 /// Loads [`Slicing`]s and draws [`SlicedCrown`]s.
@@ -99,12 +99,12 @@ pub struct SlicingPlugin;
 
 impl Plugin for SlicingPlugin {
     fn build(&self, app: &mut App) {
+        LightingPlugin::add_to(app);
         load_shader_library!(app, "shaders/types.wgsl");
         load_shader_library!(app, "shaders/blend.wgsl");
         load_shader_library!(app, "shaders/lots.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/look.wgsl");
-        load_shader_library!(app, "shaders/simple.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/prepass.wgsl");
 

@@ -4,7 +4,9 @@ use bevy::asset::{AssetId, Assets};
 use bevy::color::{ColorToComponents, ColorToPacked};
 use bevy::image::{Image, TextureAccessError};
 use bevy::math::{Vec2, Vec3, Vec4};
-use bevy::mesh::{Indices, Mesh, MeshAccessError, PrimitiveTopology, VertexAttributeValues};
+use bevy::mesh::{
+    Indices, Mesh, MeshAccessError, MeshVertexAttribute, PrimitiveTopology, VertexAttributeValues,
+};
 use bevy::pbr::StandardMaterial;
 use bevy::prelude::AlphaMode;
 use thiserror::Error;
@@ -86,31 +88,17 @@ impl Shape {
 
 /// The vertices and triangles of a mesh, with all lists.
 fn read(mesh: &Mesh, material: &StandardMaterial) -> Result<Shape, ShapeMeshError> {
-    let vector = |[x, y, z]: [f32; 3]| Vec3::new(x, -z, y);
-    let positions = mesh.try_attribute(Mesh::ATTRIBUTE_POSITION)?;
-    let positions = positions
-        .as_float3()
-        .ok_or(ShapeMeshError::Format("positions"))?;
+    // Bevy's axes become those of volumes.
+    let turned = |vectors: Vec<Vec3>| -> Vec<Vec3> {
+        let turn = |Vec3 { x, y, z }: Vec3| Vec3::new(x, -z, y);
+        vectors.into_iter().map(turn).collect()
+    };
+    let positions = positions(mesh)?;
     let count = positions.len();
-    let normals = match mesh.try_attribute_option(Mesh::ATTRIBUTE_NORMAL)? {
-        Some(normals) => {
-            let normals = normals
-                .as_float3()
-                .ok_or(ShapeMeshError::Format("normals"))?;
-            normals.iter().copied().map(vector).collect()
-        }
-        None => vec![Vec3::ZERO; count],
-    };
-    let uvs = match mesh.try_attribute_option(Mesh::ATTRIBUTE_UV_0)? {
-        Some(VertexAttributeValues::Float32x2(uvs)) => {
-            let transform = material.uv_transform;
-            uvs.iter()
-                .map(|&uv| transform.transform_point2(uv.into()))
-                .collect()
-        }
-        Some(_) => return Err(ShapeMeshError::Format("texture coordinates")),
-        None => Vec::new(),
-    };
+    let normals = vectors(mesh, Mesh::ATTRIBUTE_NORMAL, "normals")?;
+    let transform = material.uv_transform;
+    let uvs = uvs(mesh)?.into_iter();
+    let uvs = uvs.map(|uv| transform.transform_point2(uv)).collect();
     let colors = match mesh.try_attribute_option(Mesh::ATTRIBUTE_COLOR)? {
         Some(VertexAttributeValues::Float32x4(colors)) => {
             colors.iter().copied().map(Vec4::from).collect()
@@ -119,8 +107,8 @@ fn read(mesh: &Mesh, material: &StandardMaterial) -> Result<Shape, ShapeMeshErro
         None => vec![Vec4::ONE; count],
     };
     let mut shape = Shape {
-        positions: positions.iter().copied().map(vector).collect(),
-        normals,
+        positions: turned(positions),
+        normals: turned(normals.unwrap_or_else(|| vec![Vec3::ZERO; count])),
         uvs,
         colors,
         triangles: triangles(mesh, count)?,
@@ -128,6 +116,37 @@ fn read(mesh: &Mesh, material: &StandardMaterial) -> Result<Shape, ShapeMeshErro
     };
     shape.uvs.resize(count, Vec2::ZERO);
     Ok(shape)
+}
+
+/// The positions of a mesh.
+pub(super) fn positions(mesh: &Mesh) -> Result<Vec<Vec3>, ShapeMeshError> {
+    mesh.try_attribute(Mesh::ATTRIBUTE_POSITION)?;
+    let positions = vectors(mesh, Mesh::ATTRIBUTE_POSITION, "positions")?;
+    Ok(positions.unwrap_or_default())
+}
+
+/// An attribute of a mesh, called so in messages, if it has it.
+pub(super) fn vectors(
+    mesh: &Mesh,
+    attribute: MeshVertexAttribute,
+    name: &'static str,
+) -> Result<Option<Vec<Vec3>>, ShapeMeshError> {
+    let Some(values) = mesh.try_attribute_option(attribute)? else {
+        return Ok(None);
+    };
+    let values = values.as_float3().ok_or(ShapeMeshError::Format(name))?;
+    Ok(Some(values.iter().copied().map(Vec3::from).collect()))
+}
+
+/// The texture coordinates of a mesh; none if it has none.
+pub(super) fn uvs(mesh: &Mesh) -> Result<Vec<Vec2>, ShapeMeshError> {
+    match mesh.try_attribute_option(Mesh::ATTRIBUTE_UV_0)? {
+        Some(VertexAttributeValues::Float32x2(uvs)) => {
+            Ok(uvs.iter().copied().map(Vec2::from).collect())
+        }
+        Some(_) => Err(ShapeMeshError::Format("texture coordinates")),
+        None => Ok(Vec::new()),
+    }
 }
 
 /// The triangles of a mesh of so many vertices.

@@ -65,11 +65,13 @@ pub use choose::{
 };
 pub use draw::{
     ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, MAX_SLICES, TexelCycle, TexelHeights, TexelMaterial,
-    TexelPlugin, TexelSettings, TexelSlices, TexelSurface, TexelSurfaceError,
+    TexelPlugin, TexelSettings, TexelSlices, TexelStats, TexelSurface, TexelSurfaceError,
 };
 pub use error::TexelError;
 pub use from_mesh::ShapeMeshError;
 pub use progress::{BuildStep, Progress, silent};
+#[cfg(feature = "lab")]
+pub(crate) use slice_sets::SliceBoxes;
 pub use slice_sets::{SliceLevel, SliceSet, SliceSets};
 pub use thickness::{MOST_PIXELS, Thickness};
 pub use topology::{Topology, TopologyReport};

@@ -5,7 +5,7 @@
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
 #ifndef PREPASS_PIPELINE
-#import bevy_verdure::slicing::simple::{Leaf, simple_light}
+#import bevy_verdure::lighting::simple::{Leaf, simple_light}
 #endif
 
 struct Shape {

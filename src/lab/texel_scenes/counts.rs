@@ -5,7 +5,8 @@ use bevy::prelude::*;
 use crate::lab::studio::{Lens, Shot};
 use crate::texel::facet::{Facet, slice_range};
 use crate::texel::{
-    Choice, ReferenceVolume, SliceAxis, SliceSets, TexelSettings, TexelView, VolumeMeasure, choose,
+    AxisSlices, ReferenceVolume, SliceAxis, SliceBoxes, SliceSets, TexelSettings, TexelView,
+    VolumeMeasure, choose_fading,
 };
 
 /// What facets are drawn by.
@@ -19,10 +20,11 @@ pub struct SliceCounts {
     pub triangles: usize,
 }
 
-/// Counts what a view shows of facets in world space, apart from what fades in and out.
-pub fn count(
+/// Counts what a view shows of facets in world space, apart from what fades in and out, and from slices that show nothing.
+pub(crate) fn count(
     facets: &[Facet],
     volume: &ReferenceVolume,
+    boxes: &SliceBoxes,
     shot: &Shot,
     settings: &TexelSettings,
 ) -> SliceCounts {
@@ -30,12 +32,20 @@ pub fn count(
     let view = texel_view(shot);
     let mut counts = SliceCounts::default();
     for facet in facets {
-        let Choice::Slices { axis, exponent, .. } =
-            choose(facet, &measure, &view, &settings.quality)
-        else {
+        let all = choose_fading(facet, &measure, &view, &settings.quality);
+        let share = |slices: &AxisSlices| slices.lots[1] - slices.lots[0];
+        let best = all.into_iter().flatten();
+        let Some(best) = best.max_by(|a, b| share(a).total_cmp(&share(b))) else {
             continue;
         };
-        let slices = slice_range(facet.uvs, axis, 1 << exponent).len();
+        let (axis, count) = (best.axis, 1 << best.exponent);
+        let is_drawn = |slice: &i32| {
+            settings.empty_slices
+                || boxes
+                    .trim(facet.uvs, axis, *slice, count, best.footprint)
+                    .is_some()
+        };
+        let slices = slice_range(facet.uvs, axis, count).filter(is_drawn).count();
         counts.facets += 1;
         counts.slices += slices;
         counts.triangles += slices * if axis == SliceAxis::W { 1 } else { 2 };
@@ -44,7 +54,7 @@ pub fn count(
 }
 
 /// Bytes on the device of a volume and of what covers facets: slices of all sets with their mip levels, colours and
-/// normals, uncompressed; and records of facets. Lists of slices come to 24 bytes for each that a view shows.
+/// normals, uncompressed; and records of facets. Lists of slices come to 32 bytes for each that a view shows.
 pub fn texel_bytes(facets: &[Facet], volume: &ReferenceVolume, most: u32) -> usize {
     const RECORD: usize = 144;
     SliceSets::new(volume, most).bytes() + facets.len() * RECORD

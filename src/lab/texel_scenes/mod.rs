@@ -3,13 +3,14 @@
 //! | file | question |
 //! |---|---|
 //! | `patterns` | which volumes are there, of what shapes? |
-//! | [`surfaces`] | what do they cover? |
+//! | [`surfaces`], `limb` | what do they cover? |
 //! | `stand` | how does a scene look with some settings? |
 //! | `full` | which triangles do texels stand for? |
 //! | `counts` | how many slices is it drawn by? |
 
 mod counts;
 mod full;
+mod limb;
 mod patterns;
 mod stand;
 pub mod surfaces;
@@ -20,8 +21,9 @@ use clap::ValueEnum;
 use crate::texel::build::Spreading;
 use crate::texel::{TexelVolume, silent};
 
-pub use counts::{SliceCounts, count, texel_bytes, texel_view};
+pub use counts::{SliceCounts, texel_bytes, texel_view};
 pub use full::{full_mesh, instances};
+pub use limb::{Knee, bend_knees, joints};
 pub use patterns::Pattern;
 pub use stand::{FullMeshes, TexelStand, all_slices};
 
@@ -44,6 +46,8 @@ pub enum TexelScene {
     Flag,
     /// A ball of fur in the wind.
     Fur,
+    /// A limb of fur on two joints.
+    Limb,
     /// A hill of grass in the wind.
     Meadow,
 }
@@ -73,7 +77,7 @@ impl TexelScene {
             Self::Pear | Self::Pears => Pattern::Pear,
             Self::Bushes => Pattern::Bush,
             Self::Noise | Self::Sphere | Self::Plane => Pattern::Noise,
-            Self::Flag | Self::Fur => Pattern::Fur,
+            Self::Flag | Self::Fur | Self::Limb => Pattern::Fur,
             Self::Meadow => Pattern::Grass,
         }
     }
@@ -90,6 +94,7 @@ impl TexelScene {
         match self {
             Self::Pear => (Vec3::new(0.6, 1.6, 3.2), Vec3::new(0.0, 0.45, 0.0)),
             Self::Pears | Self::Sphere | Self::Fur => (Vec3::new(0.0, 1.9, 4.6), Vec3::Y * 1.3),
+            Self::Limb => (Vec3::new(0.3, 1.7, 4.0), Vec3::new(0.3, 0.95, 0.0)),
             Self::Flag => (Vec3::new(0.4, 1.9, 3.4), Vec3::new(0.0, 1.3, 0.0)),
             Self::Bushes => (Vec3::new(0.0, 2.2, 5.6), Vec3::Y * 0.2),
             Self::Noise => (Vec3::new(0.0, 1.5, 3.0), Vec3::Y * 0.1),
@@ -183,6 +188,10 @@ impl TexelScene {
                     0.25,
                     Transform::from_xyz(0.0, 1.3, 0.0),
                 )
+            }],
+            Self::Limb => vec![Covered {
+                color: Some(Color::srgb(0.10, 0.06, 0.03)),
+                ..covered(limb::limb(), 0.12, Transform::IDENTITY)
             }],
             Self::Meadow => vec![Covered {
                 color: Some(Color::srgb(0.10, 0.13, 0.04)),

@@ -1,6 +1,6 @@
 //! A scene of texels in a studio, drawn with one setting after the other.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use bevy::prelude::*;
 use bevy::render::render_resource::Face;
@@ -13,8 +13,11 @@ use crate::lab::daylight::{Daylight, SKY};
 use crate::lab::headless::adapter_name;
 use crate::lab::studio::{Shot, Studio};
 use crate::lab::timing::GpuClockPlugin;
+use crate::lighting::PlantLighting;
 use crate::texel::facet::Facet;
-use crate::texel::{ReferenceVolume, TexelQuality, TexelSettings, TexelSurface, TexelVolume};
+use crate::texel::{
+    ReferenceVolume, SliceBoxes, SliceSets, TexelQuality, TexelSettings, TexelSurface, TexelVolume,
+};
 
 /// Distance, in metres, to which shadows are cast.
 const SHADOWS: f32 = 20.0;
@@ -35,10 +38,12 @@ pub struct TexelStand {
     /// Where each instance of the volume is, as nearly as turning and stretching can.
     pub instances: Vec<Transform>,
     scene: TexelScene,
+    /// Where slices show anything, found when it is asked for.
+    boxes: OnceLock<SliceBoxes>,
 }
 
 /// Settings that show every slice there is.
-pub fn all_slices(lit: bool) -> TexelSettings {
+pub fn all_slices(lighting: PlantLighting) -> TexelSettings {
     TexelSettings {
         quality: TexelQuality {
             // Not 0, by which nothing can be divided.
@@ -46,7 +51,7 @@ pub fn all_slices(lit: bool) -> TexelSettings {
             pixels: 1e-3,
             ..default()
         },
-        lit,
+        lighting,
         ..default()
     }
 }
@@ -109,6 +114,7 @@ impl TexelStand {
             facets,
             instances: places,
             scene,
+            boxes: OnceLock::new(),
         })
     }
 
@@ -180,7 +186,9 @@ impl TexelStand {
 
     /// The slices that a view shows with some settings.
     pub fn count(&self, shot: &Shot, settings: &TexelSettings) -> SliceCounts {
-        count(&self.facets, &self.volume, shot, settings)
+        let sets = || SliceSets::new(&self.volume, u32::MAX);
+        let boxes = self.boxes.get_or_init(|| SliceBoxes::of(&sets()));
+        count(&self.facets, &self.volume, boxes, shot, settings)
     }
 }
 

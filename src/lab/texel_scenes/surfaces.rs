@@ -9,7 +9,7 @@ use bevy::mesh::{Indices, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::*;
 
 /// A mesh of vertices in rows and columns, of which each square carries a texel.
-fn lattice(columns: u32, rows: u32, vertex: impl Fn(u32, u32) -> (Vec3, Vec3)) -> Mesh {
+pub(super) fn lattice(columns: u32, rows: u32, vertex: impl Fn(u32, u32) -> (Vec3, Vec3)) -> Mesh {
     let (mut positions, mut normals, mut uvs) = (Vec::new(), Vec::new(), Vec::new());
     for row in 0..=rows {
         for column in 0..=columns {

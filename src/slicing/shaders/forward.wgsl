@@ -8,7 +8,7 @@
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
 #import bevy_verdure::slicing::lots::{cells, footprint, is_there}
-#import bevy_verdure::slicing::simple::{Leaf, simple_light}
+#import bevy_verdure::lighting::simple::{Leaf, simple_light}
 
 // Opacity below which a place is not worth its light.
 #ifdef CROWN_PAPER_ORDER

@@ -1,6 +1,8 @@
 //! The direction and the number of slices of every facet, for one view (§4.2, §4.3).
 
-use bevy::math::{UVec3, Vec3, Vec4};
+use core::f32::consts::FRAC_PI_2;
+
+use bevy::math::{UVec3, Vec2, Vec3, Vec4};
 use bevy::reflect::{Reflect, std_traits::ReflectDefault};
 
 use super::axis::SliceAxis;
@@ -72,6 +74,10 @@ pub struct TexelQuality {
     pub depth: f32,
     /// p: the distance between slices on screen, in pixels, that is close enough for any depth.
     pub pixels: f32,
+    /// The least angle between the view and the slices' normal, in radians from 0 to π/2, that slices are as many for. Seen
+    /// along their normal few slices show no gaps, but then places are as coarse along the view as slices are apart, and
+    /// texels that overlap meet in steps.
+    pub least_angle: f32,
 }
 
 impl Default for TexelQuality {
@@ -80,9 +86,14 @@ impl Default for TexelQuality {
             direction: DirectionRule::default(),
             depth: depth_limit(1.0),
             pixels: 1.0,
+            least_angle: LEAST_ANGLE,
         }
     }
 }
+
+/// That of which the tangent is one half: slices that are next to one another along the view are at most twice as far apart as
+/// those next to one another on the screen may be.
+const LEAST_ANGLE: f32 = 0.463_647_6;
 
 /// What of a facet is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -118,6 +129,8 @@ pub struct AxisSlices {
     pub inside: f32,
     /// d, which it should not exceed.
     pub depth: f32,
+    /// How much of a texel a pixel of the view covers at most, along the columns and along the rows of a slice.
+    pub footprint: Vec2,
 }
 
 /// Chooses for one facet: the direction at its centre, for deformations are taken to be small, and the number of slices by
@@ -175,6 +188,8 @@ struct FacetInView {
     cost: [f32; 3],
     /// The least distance of any part of it, so that none is drawn too coarsely; 1 of an orthographic view.
     z: f32,
+    /// The largest.
+    z_far: f32,
 }
 
 impl FacetInView {
@@ -208,11 +223,20 @@ impl FacetInView {
             };
             cost[i] = direction_cost(c[i], step);
         }
-        let z = match view.direction {
-            Some(_) => 1.0,
-            None => view.eye.distance(centre) - radius,
+        let (z, z_far) = match view.direction {
+            Some(_) => (1.0, 1.0),
+            None => {
+                let distance = view.eye.distance(centre);
+                (distance - radius, distance + radius)
+            }
         };
-        Some(Self { c, e, cost, z })
+        Some(Self {
+            c,
+            e,
+            cost,
+            z,
+            z_far,
+        })
     }
 
     /// Slices across one axis, however good a direction it is; they get all lots.
@@ -226,8 +250,12 @@ impl FacetInView {
     ) -> AxisSlices {
         let i = axis.index();
         let most = measure.most[i];
-        let [for_depth, for_pixels] =
-            slices_needed(facet, axis, measure, view, quality, self.c[i], self.z);
+        let Needed {
+            for_inside,
+            for_depth,
+            for_pixels,
+            slope,
+        } = slices_needed(facet, axis, measure, view, quality, self.c[i], self.z);
         // An eye in reach of the prism sees slices however far apart.
         let slices = if self.z > 0.0 {
             for_depth.min(for_pixels)
@@ -243,8 +271,9 @@ impl FacetInView {
             finer: finer_share(slices, exponent, most),
             lots: [0.0, 1.0],
             // Beyond e there are gaps, and no inside.
-            inside: (for_depth / (1u32 << exponent) as f32 * depth).min(self.e[i]),
+            inside: (for_inside / (1u32 << exponent) as f32 * depth).min(self.e[i]),
             depth,
+            footprint: slope * (self.z_far / view.pixels),
         }
     }
 }
@@ -259,7 +288,20 @@ impl TexelView {
     }
 }
 
-/// How many slices the corners of the prism need for depth, and for pixels. Each has a frame of its own where height
+/// What the corners of a prism ask for.
+#[derive(Clone, Copy, Debug, Default)]
+struct Needed {
+    /// Slices for depth, as they are seen.
+    for_inside: f32,
+    /// Slices for depth, seen at the least angle at least.
+    for_depth: f32,
+    /// Slices for pixels, the same.
+    for_pixels: f32,
+    /// How much of a texel, along columns and rows, a slice shows at most for a unit of length across the view.
+    slope: Vec2,
+}
+
+/// What the corners of the prism ask for. Each has a frame of its own where height
 /// vectors differ. `c` is the cosine at the centre; `z` is the least distance.
 fn slices_needed(
     facet: &Facet,
@@ -269,8 +311,9 @@ fn slices_needed(
     quality: &TexelQuality,
     c: f32,
     z: f32,
-) -> [f32; 2] {
-    let (mut for_depth, mut for_pixels) = (0.0f32, 0.0f32);
+) -> Needed {
+    let mut needed = Needed::default();
+    let (least_sin, least_cos) = quality.least_angle.clamp(0.0, FRAC_PI_2).sin_cos();
     for w in [0.0, 1.0] {
         for (b, corner) in [Vec3::X, Vec3::Y, Vec3::Z]
             .into_iter()
@@ -285,13 +328,19 @@ fn slices_needed(
             let cosine = cosine.max(0.0);
             let e = measure.thickness.along(axis) * frame.least_stretch(axis, measure.lengths);
             let d = quality.depth * e;
-            for_depth = for_depth.max(slices_for_depth(l, tan_view_angle(cosine), d));
-            let sin_a = sin_view_angle(cosine);
-            for_pixels =
-                for_pixels.max(slices_for_pixels(l, sin_a, z, view.pixels, quality.pixels));
+            let tan_a = tan_view_angle(cosine);
+            needed.for_inside = needed.for_inside.max(slices_for_depth(l, tan_a, d));
+            let tan_a = tan_a.max(least_sin / least_cos);
+            needed.for_depth = needed.for_depth.max(slices_for_depth(l, tan_a, d));
+            let [across, up] = axis.in_plane().map(|axis| frame.edges[axis.index()]);
+            let gradients = Vec2::new(up.length(), across.length()) / across.cross(up).length();
+            needed.slope = needed.slope.max(gradients / cosine);
+            let sin_a = sin_view_angle(cosine).max(least_sin);
+            let for_pixels = slices_for_pixels(l, sin_a, z, view.pixels, quality.pixels);
+            needed.for_pixels = needed.for_pixels.max(for_pixels);
         }
     }
-    [for_depth, for_pixels]
+    needed
 }
 
 /// In place of the length of a vector that has none.

@@ -34,9 +34,17 @@ fn looking(direction: Vec3, distance: f32) -> TexelView {
     }
 }
 
+/// As many slices as they are seen to need.
+fn as_seen() -> TexelQuality {
+    TexelQuality {
+        least_angle: 0.0,
+        ..Default::default()
+    }
+}
+
 fn chosen(direction: Vec3, distance: f32) -> (SliceAxis, u32) {
     let view = looking(direction, distance);
-    match choose(&facet(), &measure(), &view, &TexelQuality::default()) {
+    match choose(&facet(), &measure(), &view, &as_seen()) {
         Choice::Slices { axis, exponent, .. } => (axis, 1 << exponent),
         Choice::LeftOut => panic!("it is in view"),
     }
@@ -80,7 +88,7 @@ fn by_quality_a_thick_direction_wins_over_a_fine_one() {
     let chosen = |direction| {
         let quality = TexelQuality {
             direction,
-            ..TexelQuality::default()
+            ..as_seen()
         };
         choose(&facet(), &measure, &view, &quality)
     };
@@ -136,8 +144,7 @@ fn near_counts_are_dense_enough_that_no_gap_can_show() {
 #[test]
 fn what_is_out_of_view_or_broken_is_left_out() {
     let mut view = looking(Vec3::NEG_Z, 3.0);
-    let choice =
-        |facet: &Facet, view: &TexelView| choose(facet, &measure(), view, &TexelQuality::default());
+    let choice = |facet: &Facet, view: &TexelView| choose(facet, &measure(), view, &as_seen());
     view.half_spaces[2] = Vec4::new(1.0, 0.0, 0.0, -0.9);
     assert_ne!(
         choice(&facet(), &view),
@@ -161,7 +168,7 @@ fn an_eye_within_the_texel_gets_all_there_is() {
         eye: facet().point(Vec3::splat(1.0 / 3.0), 0.5),
         ..looking(Vec3::X, 1.0)
     };
-    let choice = choose(&facet(), &measure(), &view, &TexelQuality::default());
+    let choice = choose(&facet(), &measure(), &view, &as_seen());
     assert!(
         matches!(choice, Choice::Slices { exponent: 6, .. }),
         "{choice:?}"
@@ -177,7 +184,7 @@ fn an_orthographic_view_is_alike_at_any_distance() {
         half_spaces: [Vec4::ZERO; 6],
     };
     let choices = [Vec3::ZERO, Vec3::splat(1e4)]
-        .map(|eye| choose(&facet(), &measure(), &along(eye), &TexelQuality::default()));
+        .map(|eye| choose(&facet(), &measure(), &along(eye), &as_seen()));
     assert_eq!(choices[0], choices[1]);
     // 0.25 m · sin 45° · 40 pixels a metre is 7.07 pixels: as many slices, rounded up.
     assert_eq!(
@@ -188,4 +195,29 @@ fn an_orthographic_view_is_alike_at_any_distance() {
             along: false
         }
     );
+}
+
+#[test]
+fn at_the_least_angle_there_are_as_many_slices_as_seen_from_it() {
+    let count = |degrees: f32, least_angle: f32| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let view = TexelView {
+            direction: Some(Vec3::new(sin, 0.0, -cos)),
+            ..looking(Vec3::NEG_Z, 1.0)
+        };
+        let quality = TexelQuality {
+            least_angle,
+            ..Default::default()
+        };
+        let all = choose_fading(&facet(), &measure(), &view, &quality);
+        let [_, _, w] = all;
+        let w = w.expect("slices along w are seen best");
+        (w.exponent, w.inside)
+    };
+    let (aslant, _) = count(25.0, 0.0);
+    assert_eq!(count(0.0, 0.0), (0, 0.0));
+    // More of them, but one sees no deeper.
+    assert_eq!(count(0.0, 25f32.to_radians()), (aslant, 0.0));
+    assert_eq!(count(25.0, 0.1).0, aslant);
+    assert!(aslant > 1);
 }

@@ -8,6 +8,7 @@ use super::super::choose::TexelQuality;
 use super::super::facet::SurfaceFacets;
 use super::geometry::facets;
 use super::surface_mesh::TexelSurfaceError;
+use crate::lighting::PlantLighting;
 
 /// Height vectors of a mesh (§2.1): a mesh attribute, in the mesh's space, from each vertex to the top of the texels
 /// there. Where a mesh has none, they are as long as a surface's [`thickness`](TexelSurface::thickness) and follow
@@ -119,15 +120,18 @@ pub struct TexelSettings {
     pub most_slices: u32,
     /// Whether counts and directions of slices fade into one another, pixel by pixel, as the view changes; else they pop.
     pub fade: bool,
-    /// Whether the scene lights the texels; else they have the colours of the volume.
-    pub lit: bool,
-    /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`.
+    /// What lights the texels; [`Unlit`](PlantLighting::Unlit) ones have the colours of the volume.
+    pub lighting: PlantLighting,
+    /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it.
     pub roughness: f32,
-    /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`.
+    /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it.
     pub reflectance: f32,
     /// How far the top moves in the [`Wind`](crate::wind::Wind), in heights, for each metre a second: 0 is stiff, 0.03 is
     /// grass. Height vectors bend, and keep their length.
     pub flexibility: f32,
+    /// Whether slices that show nothing are drawn all the same, for comparison.
+    #[doc(hidden)]
+    pub empty_slices: bool,
 }
 
 impl Default for TexelSettings {
@@ -138,14 +142,16 @@ impl Default for TexelSettings {
             shadows: TexelQuality {
                 depth: 1.0,
                 pixels: 2.0,
+                least_angle: 0.0,
                 ..Default::default()
             },
             most_slices: 256,
             fade: true,
-            lit: true,
+            lighting: PlantLighting::Simple,
             roughness: 0.8,
             reflectance: 0.3,
             flexibility: 0.0,
+            empty_slices: false,
         }
     }
 }

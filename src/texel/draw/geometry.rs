@@ -1,5 +1,6 @@
 //! What surfaces of one mesh share: facets.
 
+use core::ops::Range;
 use std::sync::Arc;
 
 use bevy::asset::{Assets, Handle};
@@ -10,7 +11,7 @@ use bevy::mesh::Mesh;
 use bevy::render::storage::ShaderBuffer;
 
 use super::super::axis::SliceAxis;
-use super::super::facet::{Facet, SurfaceFacets};
+use super::super::facet::{Facet, Surface, SurfaceFacets};
 use super::component::TexelHeights;
 use super::limit::{MAX_SLICES, most_on_facet};
 use super::records::{FacetRecord, facet_buffer};
@@ -24,10 +25,17 @@ pub(crate) struct Geometry {
     bounds: Aabb,
     /// Length of the longest height vector.
     tallest: f32,
-    /// The most slices a texel that may be shown.
-    pub most: UVec3,
-    records: Vec<FacetRecord>,
+    /// The most slices a texel that may be shown, of volumes that have so many; none if these are too many.
+    limits: Vec<(UVec3, Option<UVec3>)>,
+    pub records: Vec<FacetRecord>,
+    /// Records that the buffer has room for.
+    capacity: usize,
+    /// Records that were changed in this frame.
+    pub changed: Vec<Range<usize>>,
 }
+
+/// Records between two changed ones that are written along with them, rather than these apart.
+const LEAST_GAP: usize = 4;
 
 /// The facets of a mesh with texels as thick, or with other height vectors than its own.
 pub(crate) fn facets(
@@ -35,6 +43,15 @@ pub(crate) fn facets(
     thickness: f32,
     heights: Option<&TexelHeights>,
 ) -> Result<SurfaceFacets, TexelSurfaceError> {
+    Ok(completed(mesh, thickness, heights)?.completed_facets())
+}
+
+/// The surface of a mesh, with the height vectors that it is covered by.
+pub(crate) fn completed(
+    mesh: &Mesh,
+    thickness: f32,
+    heights: Option<&TexelHeights>,
+) -> Result<Surface, TexelSurfaceError> {
     if !(thickness.is_finite() && thickness > 0.0) {
         return Err(TexelSurfaceError::Thickness(thickness));
     }
@@ -42,60 +59,74 @@ pub(crate) fn facets(
     if let Some(heights) = heights {
         surface.heights.clone_from(&heights.0);
     }
-    Ok(surface.facets(thickness)?)
+    surface.complete(thickness)?;
+    Ok(surface)
 }
 
 impl Geometry {
-    /// Of facets, for volumes of which there are so many slices. None, and a message, if they would show too many.
-    pub(crate) fn new(
-        found: &SurfaceFacets,
-        most: UVec3,
-        buffers: &mut Assets<ShaderBuffer>,
-    ) -> Option<Self> {
-        let most = limit(&found.facets, most)?;
+    /// Of the facets of a mesh.
+    pub(crate) fn new(found: &SurfaceFacets, buffers: &mut Assets<ShaderBuffer>) -> Self {
         let records = records(found);
-        Some(Self {
+        let capacity = found.facets.len() + found.left_out.len();
+        Self {
             facets: found.facets.as_slice().into(),
-            buffer: buffers.add(facet_buffer(&records)),
+            buffer: buffers.add(facet_buffer(&records, capacity)),
             bounds: bounds(&found.facets),
             tallest: tallest(&found.facets),
-            most,
+            limits: Vec::new(),
             records,
-        })
+            capacity,
+            changed: Vec::new(),
+        }
     }
 
     /// Follows facets that may have changed. Materials must be made anew if this tells so.
     pub(crate) fn renew(
         &mut self,
         found: &SurfaceFacets,
-        most: UVec3,
         buffers: &mut Assets<ShaderBuffer>,
     ) -> bool {
-        let records = records(found);
-        if records == self.records {
+        let before = core::mem::replace(&mut self.records, records(found));
+        if self.records == before {
             return false;
         }
         self.bounds = bounds(&found.facets);
         self.tallest = tallest(&found.facets);
         self.facets = found.facets.as_slice().into();
         let uvs =
-            |records: &[FacetRecord]| records.iter().map(FacetRecord::uvs).collect::<Vec<_>>();
-        if uvs(&records) != uvs(&self.records) {
+            |records: &[FacetRecord]| -> Vec<_> { records.iter().map(FacetRecord::uvs).collect() };
+        if uvs(&self.records) != uvs(&before) {
             // How many slices there may be depends on texture coordinates alone.
-            let Some(most) = limit(&found.facets, most) else {
-                return true;
-            };
-            self.most = most;
+            self.limits.clear();
         }
-        let is_as_long = records.len() == self.records.len();
-        self.records = records;
-        if is_as_long && let Some(mut buffer) = buffers.get_mut(&self.buffer) {
-            // It is written, and stays where it is.
-            *buffer = facet_buffer(&self.records);
+        if self.records.len() <= self.capacity
+            // What is written to the GPU apart is no change that Bevy should upload.
+            && let Some(buffer) = buffers.get_mut_untracked(&self.buffer)
+            && let Some(data) = &mut buffer.data
+        {
+            for range in changed(&before, &self.records) {
+                let bytes: &[u8] = bytemuck::cast_slice(&self.records[range.clone()]);
+                let start = range.start * size_of::<FacetRecord>();
+                data[start..start + bytes.len()].copy_from_slice(bytes);
+                self.changed.push(range);
+            }
             return false;
         }
-        self.buffer = buffers.add(facet_buffer(&self.records));
+        self.capacity = self.records.len();
+        self.changed.clear();
+        self.buffer = buffers.add(facet_buffer(&self.records, self.capacity));
         true
+    }
+
+    /// The most slices a texel that may be shown of a volume that has so many. None, and a message once, if even the fewest
+    /// are too many.
+    pub(crate) fn most(&mut self, most: UVec3) -> Option<UVec3> {
+        if let Some((_, limit)) = self.limits.iter().find(|(of, _)| *of == most) {
+            return *limit;
+        }
+        let limit = limit(&self.facets, most);
+        self.limits.push((most, limit));
+        limit
     }
 
     /// A box that holds all slices, whichever way the wind bends height vectors if they are flexible.
@@ -106,6 +137,21 @@ impl Geometry {
         }
         bounds
     }
+}
+
+/// Where records differ from those before, or are new.
+fn changed(before: &[FacetRecord], records: &[FacetRecord]) -> Vec<Range<usize>> {
+    let mut ranges: Vec<Range<usize>> = Vec::new();
+    for (i, record) in records.iter().enumerate() {
+        if before.get(i) == Some(record) {
+            continue;
+        }
+        match ranges.last_mut() {
+            Some(last) if i < last.end + LEAST_GAP => last.end = i + 1,
+            _ => ranges.push(i..i + 1),
+        }
+    }
+    ranges
 }
 
 fn tallest(facets: &[Facet]) -> f32 {
@@ -171,6 +217,24 @@ mod tests {
     use bevy::math::Vec2;
 
     use super::*;
+
+    #[test]
+    fn records_that_changed_are_told_in_few_ranges() {
+        let facet = Facet {
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
+            heights: [Vec3::Z; 3],
+            uvs: [Vec2::ZERO, Vec2::X, Vec2::Y],
+        };
+        let before = vec![FacetRecord::new(&facet, &[Vec3::Z; 3]); 20];
+        let mut after = before.clone();
+        after.push(before[0]);
+        for i in [3, 6, 12] {
+            after[i] = FacetRecord::new(&facet, &[Vec3::X; 3]);
+        }
+        assert!(changed(&before, &before).is_empty());
+        assert_eq!(changed(&before, &after), [3..7, 12..13, 20..21]);
+        assert_eq!(changed(&after, &before[..5]), [3..4]);
+    }
 
     #[test]
     fn texture_coordinates_over_too_many_texels_are_refused_and_many_are_met_by_fewer_slices() {

@@ -1,5 +1,7 @@
 //! What is on the GPU for the surfaces and volumes in use.
 
+use std::sync::Arc;
+
 use bevy::asset::{AssetId, RenderAssetUsages};
 use bevy::image::Image;
 use bevy::mesh::PrimitiveTopology;
@@ -11,11 +13,15 @@ use super::super::asset::TexelVolume;
 use super::super::axis::SliceAxis;
 use super::super::choose::VolumeMeasure;
 use super::super::facet::SurfaceFacets;
-use super::super::slice_sets::SliceSets;
+use super::super::slice_sets::{SliceBoxes, SliceSets};
 use super::component::{TexelHeights, TexelSettings, TexelSurface};
-use super::geometry::{Geometry, facets};
+use super::geometry::{Geometry, completed, facets};
 use super::images::slice_images;
 use super::material::{TexelMaterial, TexelsUniform};
+use super::skin::Skin;
+use super::source::DrawnVolume;
+use super::surface_mesh::TexelSurfaceError;
+use crate::lighting::{PlantLighting, SceneLights};
 
 /// A volume of which so many slices are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -24,12 +30,11 @@ pub(crate) struct VolumeKey {
     most: u32,
 }
 
-/// A mesh that carries so thick texels of a volume; `own` is the surface that shares it with none.
+/// A mesh that carries so thick texels; `own` is the surface that shares it with none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct GeometryKey {
     mesh: AssetId<Mesh>,
     thickness: u32,
-    volume: VolumeKey,
     own: Option<Entity>,
 }
 
@@ -37,8 +42,10 @@ pub(crate) struct GeometryKey {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct TexelKeys {
     pub geometry: GeometryKey,
-    /// Those that materials have.
-    settings: [u32; 4],
+    volume: VolumeKey,
+    lighting: PlantLighting,
+    /// Other settings that materials have.
+    settings: [u32; 3],
 }
 
 impl TexelKeys {
@@ -52,14 +59,14 @@ impl TexelKeys {
             geometry: GeometryKey {
                 mesh,
                 thickness: surface.thickness.to_bits(),
-                volume: VolumeKey {
-                    id: surface.volume.id(),
-                    most: settings.most_slices,
-                },
                 own,
             },
+            volume: VolumeKey {
+                id: surface.volume.id(),
+                most: settings.most_slices,
+            },
+            lighting: settings.lighting,
             settings: [
-                settings.lit.into(),
                 settings.roughness.to_bits(),
                 settings.reflectance.to_bits(),
                 settings.flexibility.to_bits(),
@@ -71,6 +78,7 @@ impl TexelKeys {
 /// A volume's slices.
 struct SharedVolume {
     measure: VolumeMeasure,
+    boxes: Arc<SliceBoxes>,
     /// Colours and normals across u, v and w.
     images: [[Handle<Image>; 2]; 3],
 }
@@ -84,6 +92,8 @@ pub(crate) struct TexelLibrary {
     materials: HashMap<TexelKeys, [Handle<TexelMaterial>; 6]>,
     /// What Bevy's phases have in place of slices.
     quad: Option<Handle<Mesh>>,
+    /// Whether surfaces may have to be drawn with other things than they are.
+    pub is_stale: bool,
 }
 
 /// The assets that surfaces are turned into.
@@ -102,14 +112,14 @@ pub(crate) enum Drawn<'a> {
     NotYet,
     /// Its mesh carries no texels.
     Nothing,
-    /// Facets, what there is of the volume, and materials for colours across u, v and w, and for depth.
-    Slices(&'a Geometry, VolumeMeasure, [Handle<TexelMaterial>; 6]),
+    /// Facets, slices of the volume, and materials for colours across u, v and w, and for depth.
+    Slices(&'a Geometry, DrawnVolume, [Handle<TexelMaterial>; 6]),
 }
 
 impl TexelKeys {
     /// The same for another volume.
     pub(crate) fn with_volume(mut self, id: AssetId<TexelVolume>) -> Self {
-        self.geometry.volume.id = id;
+        self.volume.id = id;
         self
     }
 }
@@ -150,7 +160,7 @@ impl TexelLibrary {
             None if !assets.meshes.contains(keys.geometry.mesh) => return Drawn::NotYet,
             _ => {}
         }
-        let Some(volume) = self.volume(keys.geometry.volume, most_layers, assets) else {
+        let Some(volume) = self.volume(keys.volume, most_layers, assets) else {
             return Drawn::NotYet;
         };
         let measure = volume.measure;
@@ -159,20 +169,19 @@ impl TexelLibrary {
                 return Drawn::NotYet;
             };
             let found = told_facets(keys.geometry.mesh, mesh, surface.thickness, heights);
-            let geometry =
-                found.and_then(|facets| Geometry::new(&facets, measure.most, &mut assets.buffers));
+            let geometry = found.map(|facets| Geometry::new(&facets, &mut assets.buffers));
             self.geometries.insert(keys.geometry, geometry);
         }
-        let Some(Some(geometry)) = self.geometries.get(&keys.geometry) else {
+        let Some(Some(geometry)) = self.geometries.get_mut(&keys.geometry) else {
+            return Drawn::Nothing;
+        };
+        let Some(most) = geometry.most(measure.most) else {
             return Drawn::Nothing;
         };
         let volumes = &self.volumes;
-        let measure = VolumeMeasure {
-            most: geometry.most,
-            ..measure
-        };
+        let measure = VolumeMeasure { most, ..measure };
         let materials = self.materials.entry(keys).or_insert_with(|| {
-            let images = &volumes[&keys.geometry.volume].images;
+            let images = &volumes[&keys.volume].images;
             let sets = [0, 1, 2, 3, 4, 5].map(|i| (SliceAxis::ALL[i % 3], i >= 3));
             sets.map(|(axis, depth)| {
                 let [color, normal] = images[axis.index()].clone();
@@ -182,12 +191,17 @@ impl TexelLibrary {
                     color,
                     normal,
                     axis,
-                    lit: settings.lit,
+                    // Until `follow_lights` says otherwise, in this very frame.
+                    lighting: settings.lighting.into(),
                     depth,
                 })
             })
         });
-        Drawn::Slices(geometry, measure, materials.clone())
+        let volume = DrawnVolume {
+            measure,
+            boxes: volumes[&keys.volume].boxes.clone(),
+        };
+        Drawn::Slices(geometry, volume, materials.clone())
     }
 
     fn volume(
@@ -203,7 +217,12 @@ impl TexelLibrary {
             let sets = SliceSets::new(volume, most);
             let images = slice_images(&sets).map(|both| both.map(|image| assets.images.add(image)));
             let measure = VolumeMeasure::of(volume, most);
-            self.volumes.insert(key, SharedVolume { measure, images });
+            let shared = SharedVolume {
+                measure,
+                boxes: Arc::new(SliceBoxes::of(&sets)),
+                images,
+            };
+            self.volumes.insert(key, shared);
         }
         self.volumes.get(&key)
     }
@@ -211,9 +230,8 @@ impl TexelLibrary {
     /// Forgets what was made of volumes that were edited, so that it is made anew.
     pub(crate) fn forget_volume(&mut self, id: AssetId<TexelVolume>) {
         self.volumes.retain(|key, _| key.id != id);
-        self.geometries.retain(|key, _| key.volume.id != id);
-        self.materials
-            .retain(|keys, _| keys.geometry.volume.id != id);
+        self.materials.retain(|keys, _| keys.volume.id != id);
+        self.is_stale = true;
     }
 
     /// Tells all materials of a change of wind.
@@ -226,6 +244,25 @@ impl TexelLibrary {
             {
                 let flexibility = material.texels.wind.w;
                 material.texels.wind = wind.extend(flexibility);
+            }
+        }
+    }
+
+    /// Tells all materials which lighting the scene's lights call for.
+    pub(crate) fn follow_lights(
+        &self,
+        lights: &SceneLights,
+        materials: &mut Assets<TexelMaterial>,
+    ) {
+        for (keys, handles) in &self.materials {
+            let lighting = lights.lighting(keys.lighting);
+            for handle in handles {
+                // Only what is written to counts as changed.
+                if let Some(mut material) = materials.get_mut(handle)
+                    && material.lighting != lighting
+                {
+                    material.lighting = lighting;
+                }
             }
         }
     }
@@ -247,6 +284,7 @@ impl TexelLibrary {
                 self.geometries.remove(&key);
                 self.materials.retain(|keys, _| keys.geometry != key);
             }
+            self.is_stale = true;
         }
     }
 
@@ -263,14 +301,13 @@ impl TexelLibrary {
         let thickness = f32::from_bits(key.thickness);
         let mesh = assets.meshes.get(key.mesh);
         let found = mesh.and_then(|mesh| facets(mesh, thickness, heights).ok());
-        let volume = self.volumes.get(&key.volume);
-        let is_stale = match (geometry, volume, found) {
-            (Some(geometry), Some(volume), Some(found)) if !found.facets.is_empty() => {
-                geometry.renew(&found, volume.measure.most, &mut assets.buffers)
+        let is_stale = match (geometry, found) {
+            (Some(geometry), Some(found)) if !found.facets.is_empty() => {
+                geometry.renew(&found, &mut assets.buffers)
             }
             // What is still wrong was told when it went wrong.
-            (None, _, None) => return,
-            (None, _, Some(found)) if found.facets.is_empty() => return,
+            (None, None) => return,
+            (None, Some(found)) if found.facets.is_empty() => return,
             _ => {
                 // It is looked at anew, and told if it is wrong.
                 self.geometries.remove(&key);
@@ -282,16 +319,67 @@ impl TexelLibrary {
         }
     }
 
-    /// Forgets what else was made for a surface of its own, as for the other volumes of a cycle.
-    pub(crate) fn forget_others(&mut self, key: GeometryKey) {
-        let is_other = |k: &GeometryKey| k.own.is_some() && k.own == key.own && *k != key;
-        self.geometries.retain(|k, _| !is_other(k));
-        self.materials.retain(|k, _| !is_other(&k.geometry));
+    /// Poses the mesh of a surface that shares its geometry with none, and tells how it is then; none if nothing of it is
+    /// drawn, or nothing of it could be as it is posed.
+    ///
+    /// # Errors
+    /// When it cannot be posed. It stays as it was.
+    pub(crate) fn pose(
+        &mut self,
+        key: GeometryKey,
+        heights: Option<&TexelHeights>,
+        matrices: &[Mat4],
+        assets: &mut TexelAssets,
+    ) -> Result<Option<&Geometry>, TexelSurfaceError> {
+        let (Some(Some(geometry)), Some(mesh)) =
+            (self.geometries.get_mut(&key), assets.meshes.get(key.mesh))
+        else {
+            return Ok(None);
+        };
+        let mut surface = completed(mesh, f32::from_bits(key.thickness), heights)?;
+        Skin::of(mesh, surface.positions.len())?.pose(&mut surface, matrices)?;
+        let found = surface.completed_facets();
+        if found.facets.is_empty() {
+            return Ok(None);
+        }
+        if geometry.renew(&found, &mut assets.buffers) {
+            self.materials.retain(|keys, _| keys.geometry != key);
+            self.is_stale = true;
+        }
+        Ok(Some(geometry))
+    }
+
+    /// Facets that were changed in this frame, and their buffers.
+    pub(crate) fn changed(&self) -> impl Iterator<Item = &Geometry> {
+        let geometries = self.geometries.values().flatten();
+        geometries.filter(|geometry| !geometry.changed.is_empty())
+    }
+
+    /// Begins a frame in which no facet has changed yet.
+    pub(crate) fn settle(&mut self) {
+        for geometry in self.geometries.values_mut().flatten() {
+            geometry.changed.clear();
+        }
+    }
+
+    /// Forgets what was told of a surface that is gone.
+    pub(crate) fn forget_owner(&mut self, owner: Entity) {
+        self.geometries
+            .retain(|key, geometry| geometry.is_some() || key.own != Some(owner));
+    }
+
+    /// Forgets what was told of a mesh that is gone.
+    pub(crate) fn forget_mesh(&mut self, id: AssetId<Mesh>) {
+        self.geometries
+            .retain(|key, geometry| geometry.is_some() || key.mesh != id);
     }
 
     /// Forgets everything, on a device that has taken a lost one's place and has nothing of what was there.
     pub(crate) fn clear(&mut self) {
-        *self = Self::default();
+        *self = Self {
+            is_stale: true,
+            ..Self::default()
+        };
     }
 
     /// Forgets what no surface uses any more.
@@ -301,7 +389,7 @@ impl TexelLibrary {
         // What was told once need not be told again.
         self.geometries
             .retain(|key, geometry| geometries.contains(key) || geometry.is_none());
-        let volumes: HashSet<_> = geometries.iter().map(|key| key.volume).collect();
+        let volumes: HashSet<_> = used.iter().map(|keys| keys.volume).collect();
         self.volumes.retain(|key, _| volumes.contains(key));
     }
 }

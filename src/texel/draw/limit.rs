@@ -3,7 +3,7 @@
 use super::super::axis::SliceAxis;
 use super::super::facet::{Facet, slice_range};
 
-/// The most slices that a surface may show across each axis in one view. 24 bytes each.
+/// The most slices that a surface may show across each axis in one view. 32 bytes each.
 pub const MAX_SLICES: usize = 1 << 21;
 
 /// How many slices a facet may show of at most so many a texel across an axis, with half as many that fade into them.

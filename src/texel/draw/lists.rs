@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use bevy::camera::primitives::Frustum;
+use bevy::camera::visibility::RenderLayers;
 use bevy::camera::{Camera3d, MainPassResolutionOverride};
 use bevy::light::{NotShadowCaster, NotShadowReceiver};
 use bevy::math::Affine3A;
@@ -18,6 +19,7 @@ use bevy::tasks::ComputeTaskPool;
 
 use super::records::{SliceRecord, SurfaceRecord};
 use super::source::{SeenFrom, SliceSource, view_from_eye};
+use super::upload::TexelStats;
 use crate::wind::Wind;
 
 /// A surface in this frame.
@@ -27,6 +29,7 @@ struct SurfaceInFrame {
     previous: Affine3A,
     flags: MeshFlags,
     casts_shadows: bool,
+    layers: RenderLayers,
 }
 
 /// The surfaces of this frame.
@@ -37,6 +40,8 @@ pub(crate) struct ExtractedTexels {
     places: HashMap<Entity, Affine3A>,
     /// Where they were.
     previous: HashMap<Entity, Affine3A>,
+    /// The layers of views and lights, where these are not the usual one.
+    layers: HashMap<Entity, RenderLayers>,
     wind: Vec3,
 }
 
@@ -48,12 +53,22 @@ type Extracted<'w> = (
     &'w InheritedVisibility,
     Has<NotShadowReceiver>,
     Has<NotShadowCaster>,
+    Option<&'w RenderLayers>,
 );
+
+/// What sees, or casts light.
+type Sees = Or<(
+    With<Camera3d>,
+    With<DirectionalLight>,
+    With<PointLight>,
+    With<SpotLight>,
+)>;
 
 /// Takes the surfaces over into the render world.
 pub(crate) fn extract(
     mut texels: ResMut<ExtractedTexels>,
     surfaces: Extract<Query<Extracted>>,
+    views: Extract<Query<(Entity, &RenderLayers), Sees>>,
     wind: Extract<Res<Wind>>,
 ) {
     let texels = &mut *texels;
@@ -61,7 +76,10 @@ pub(crate) fn extract(
     core::mem::swap(&mut texels.places, &mut texels.previous);
     texels.places.clear();
     texels.surfaces.clear();
-    for (entity, source, transform, visibility, receives_none, casts_none) in &surfaces {
+    texels.layers.clear();
+    let layers = views.iter().map(|(view, layers)| (view, layers.clone()));
+    texels.layers.extend(layers);
+    for (entity, source, transform, visibility, receives_none, casts_none, layers) in &surfaces {
         if !visibility.get() {
             continue;
         }
@@ -76,6 +94,7 @@ pub(crate) fn extract(
             previous: previous.unwrap_or(world_from_local),
             flags,
             casts_shadows: !casts_none,
+            layers: layers.cloned().unwrap_or_default(),
         });
     }
 }
@@ -103,7 +122,7 @@ pub(crate) struct SliceLists {
     surfaces: RawBufferVec<SurfaceRecord>,
     /// By view, and by the entity whose slices they are.
     listed: HashMap<(Entity, MainEntity), Listed>,
-    views: Vec<(Entity, SeenFrom)>,
+    views: Vec<(Entity, RenderLayers, SeenFrom)>,
     /// Kept from frame to frame, so that nothing is allocated.
     jobs: Vec<Job>,
 }
@@ -155,8 +174,9 @@ impl SliceLists {
                     for job in jobs {
                         job.lists.iter_mut().for_each(Vec::clear);
                         let surface = &texels.surfaces[job.surface];
-                        let (_, from) = &views[job.view];
-                        if from.is_light && !surface.casts_shadows {
+                        let (_, layers, from) = &views[job.view];
+                        let is_hidden = from.is_light && !surface.casts_shadows;
+                        if is_hidden || !layers.intersects(&surface.layers) {
                             continue;
                         }
                         surface.source.list(
@@ -178,7 +198,7 @@ impl SliceLists {
             self.surfaces.push(record);
         }
         for job in &self.jobs[..count] {
-            let (view, _) = self.views[job.view];
+            let view = self.views[job.view].0;
             let slices = texels.surfaces[job.surface].source.slices;
             for (axis, list) in job.lists.iter().enumerate() {
                 if list.is_empty() {
@@ -225,6 +245,7 @@ pub(crate) fn list_slices(
     time: Res<Time>,
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
+    mut stats: ResMut<TexelStats>,
 ) {
     if device.is_changed() {
         // Buffers of a lost device are lost.
@@ -252,15 +273,20 @@ pub(crate) fn list_slices(
                     wind: texels.wind,
                     time: time.elapsed_secs_wrapped(),
                 };
-                (entity, from)
+                // Those of a light are its own, in all its views.
+                let layers = texels
+                    .layers
+                    .get(&view.retained_view_entity.main_entity.id());
+                (entity, layers.cloned().unwrap_or_default(), from)
             });
         lists.views.extend(seen);
     }
     // What is seen itself goes before what casts shadows.
-    lists.views.sort_by_key(|(_, from)| from.is_light);
+    lists.views.sort_by_key(|(_, _, from)| from.is_light);
     let limit = device.limits().max_buffer_size as usize / size_of::<SliceRecord>();
     let limit = limit.min(u32::MAX as usize);
     lists.list(&texels, limit);
+    stats.slices = lists.records.len();
     // Not for each that is added a buffer anew.
     let capacity = lists.records.len().next_power_of_two().min(limit);
     lists.records.reserve(capacity, &device);

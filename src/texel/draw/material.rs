@@ -18,6 +18,7 @@ use super::super::axis::SliceAxis;
 use super::super::choose::VolumeMeasure;
 use super::component::TexelSettings;
 use super::records::vertex_buffers;
+use crate::lighting::{PlantLighting, SceneLighting};
 use crate::pipeline::{define, embedded_shader, names};
 
 /// What the shaders have of a volume and a surface's settings.
@@ -56,7 +57,8 @@ pub struct TexelMaterial {
     #[sampler(5)]
     pub(crate) normal: Handle<Image>,
     pub(crate) axis: SliceAxis,
-    pub(crate) lit: bool,
+    /// What lights them in this scene.
+    pub(crate) lighting: SceneLighting,
     /// Whether it is the depth of slices that is drawn, or the colour of those that are seen.
     pub(crate) depth: bool,
 }
@@ -66,7 +68,7 @@ pub struct TexelMaterial {
 #[repr(C)]
 pub struct TexelKey {
     axis: u8,
-    lit: bool,
+    lighting: SceneLighting,
     depth: bool,
 }
 
@@ -74,7 +76,7 @@ impl From<&TexelMaterial> for TexelKey {
     fn from(material: &TexelMaterial) -> Self {
         Self {
             axis: material.axis as u8,
-            lit: material.lit,
+            lighting: material.lighting,
             depth: material.depth,
         }
     }
@@ -126,6 +128,7 @@ impl Material for TexelMaterial {
         descriptor.primitive.topology = PrimitiveTopology::TriangleStrip;
         descriptor.primitive.cull_mode = None;
         let own = key.bind_group_data;
+        let lighting = own.lighting.lighting;
         let axis = ShaderDefVal::UInt("TEXEL_AXIS".into(), own.axis.into());
         // The shaders know where four samples lie; with more or fewer, texels have plain outlines.
         let four = descriptor.multisample.count == 4;
@@ -152,7 +155,9 @@ impl Material for TexelMaterial {
             depth.depth_write_enabled = Some(false);
         }
         let defs = names([
-            (own.lit, "TEXEL_LIT"),
+            (lighting == PlantLighting::Full, "TEXEL_FULL_LIGHT"),
+            (lighting == PlantLighting::Simple, "TEXEL_SIMPLE_LIGHT"),
+            (own.lighting.more_suns, "MORE_SUNS"),
             (has_normals, "TEXEL_NORMALS"),
             (own.depth, "TEXEL_DEPTH"),
             (key.mesh_key.contains(sun), "TEXEL_DIRECTIONAL_LIGHT"),

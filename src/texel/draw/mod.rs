@@ -30,11 +30,10 @@
 //! of slices, some 64 bytes a voxel.
 //!
 //! # What it does not do
-//! Skinned and morphed meshes carry texels where they are at rest. Cutting a volume into slices takes a second or more for
+//! Morphed meshes carry texels where they are at rest. Cutting a volume into slices takes a second or more for
 //! 256×256×64 voxels, in the frame in which it is first shown. A slice across u or v is a quad, so that texels with height
 //! vectors that twist are bent in steps. Deferred cameras draw texels forward. Where a facet needs more slices than there
-//! are, or height vectors differ much over it, gaps may show: subdivide the mesh. A change to one facet uploads those of
-//! its whole surface. Storage buffers in the vertex stage are required, so WebGL 2 is out.
+//! are, or height vectors differ much over it, gaps may show: subdivide the mesh. Storage buffers in the vertex stage are required, so WebGL 2 is out.
 
 mod commands;
 mod component;
@@ -45,11 +44,14 @@ mod limit;
 mod lists;
 mod material;
 mod records;
+mod skin;
 mod source;
 mod surface_mesh;
 mod systems;
+mod upload;
 
 use bevy::asset::AssetEventSystems;
+use bevy::camera::visibility::VisibilitySystems;
 use bevy::core_pipeline::core_3d::{AlphaMask3d, Opaque3d};
 use bevy::core_pipeline::prepass::AlphaMask3dPrepass;
 use bevy::pbr::{MaterialPlugin, Shadow};
@@ -67,8 +69,10 @@ pub use limit::MAX_SLICES;
 pub use material::TexelMaterial;
 pub use surface_mesh::TexelSurfaceError;
 pub use systems::TexelSlices;
+pub use upload::TexelStats;
 
 use crate::VerdureSystems;
+use crate::lighting::LightingPlugin;
 use crate::wind::Wind;
 
 /// Draws [`TexelSurface`]s.
@@ -79,6 +83,7 @@ pub struct TexelPlugin;
 
 impl Plugin for TexelPlugin {
     fn build(&self, app: &mut App) {
+        LightingPlugin::add_to(app);
         load_shader_library!(app, "shaders/types.wgsl");
         load_shader_library!(app, "shaders/facet.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
@@ -102,6 +107,7 @@ impl Plugin for TexelPlugin {
                     systems::cycle,
                     systems::follow_assets,
                     systems::attach,
+                    systems::follow_lights,
                     systems::follow_surfaces,
                     systems::follow_wind.run_if(resource_changed::<Wind>),
                 )
@@ -109,6 +115,15 @@ impl Plugin for TexelPlugin {
                     // An app without a renderer has none; it draws no texels either.
                     .run_if(resource_exists::<Assets<ShaderBuffer>>)
                     .in_set(VerdureSystems::Attach)
+                    .before(AssetEventSystems),
+            )
+            .add_systems(
+                PostUpdate,
+                skin::follow_skins
+                    .run_if(resource_exists::<Assets<ShaderBuffer>>)
+                    .after(VerdureSystems::Attach)
+                    .after(TransformSystems::Propagate)
+                    .before(VisibilitySystems::CheckVisibility)
                     .before(AssetEventSystems),
             );
 
@@ -122,7 +137,8 @@ impl Plugin for TexelPlugin {
             .add_render_command::<AlphaMask3d, commands::DrawTexels>()
             .add_render_command::<AlphaMask3dPrepass, commands::DrawTexelsBefore>()
             .add_render_command::<Shadow, commands::DrawTexelsBefore>()
-            .add_systems(ExtractSchedule, lists::extract)
+            .init_resource::<upload::TexelStats>()
+            .add_systems(ExtractSchedule, (lists::extract, upload::upload))
             .add_systems(
                 Render,
                 (

@@ -9,6 +9,7 @@ use bevy::render::storage::ShaderBuffer;
 use bytemuck::{Pod, Zeroable};
 
 use super::super::facet::Facet;
+use super::super::slice_sets::Trim;
 
 /// A facet, as the shaders have it.
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
@@ -51,6 +52,8 @@ pub(crate) struct SliceRecord {
     pub lots: [f32; 2],
     /// How far the surface may be above the place inside of it that is seen.
     pub inside: f32,
+    /// What of it is drawn.
+    pub trim: Trim,
 }
 
 /// A surface, the same for all its slices.
@@ -80,17 +83,23 @@ impl SurfaceRecord {
 
 /// How the vertex stage reads [`SliceRecord`]s and, the same one for all, a [`SurfaceRecord`].
 pub(crate) fn vertex_buffers() -> Vec<VertexBufferLayout> {
-    let slices = [VertexFormat::Uint32x3, VertexFormat::Float32x3];
+    let slices = [
+        VertexFormat::Uint32x3,
+        VertexFormat::Float32x3,
+        VertexFormat::Unorm16x4,
+    ];
     let surface = core::iter::repeat_n(VertexFormat::Float32x4, 6).chain([VertexFormat::Uint32]);
     let mut slices = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, slices);
     let mut surface = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, surface);
     slices.array_stride = size_of::<SliceRecord>() as u64;
-    surface = surface.offset_locations_by(2);
+    surface = surface.offset_locations_by(3);
     surface.array_stride = 0;
     vec![slices, surface]
 }
 
-/// The buffer of a surface's facets, of which there is at least one.
-pub(crate) fn facet_buffer(records: &[FacetRecord]) -> ShaderBuffer {
-    ShaderBuffer::new(bytemuck::cast_slice(records), RenderAssetUsages::default())
+/// The buffer of a surface's facets, with room for `capacity`, which is at least one.
+pub(crate) fn facet_buffer(records: &[FacetRecord], capacity: usize) -> ShaderBuffer {
+    let mut buffer = ShaderBuffer::new(bytemuck::cast_slice(records), RenderAssetUsages::default());
+    buffer.resize((capacity * size_of::<FacetRecord>()) as u64);
+    buffer
 }

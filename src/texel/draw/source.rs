@@ -9,8 +9,16 @@ use bevy::prelude::*;
 
 use super::super::choose::{TexelQuality, TexelView, VolumeMeasure, choose_fading};
 use super::super::facet::{Facet, bend, slice_range};
+use super::super::slice_sets::{SliceBoxes, WHOLE};
 use super::component::TexelSettings;
 use super::records::SliceRecord;
+
+/// What of a volume its slices are chosen by.
+#[derive(Clone, Debug)]
+pub(crate) struct DrawnVolume {
+    pub measure: VolumeMeasure,
+    pub boxes: Arc<SliceBoxes>,
+}
 
 /// What the slices of a surface are chosen from, in each view. On the surface; the plugin keeps it up to date.
 #[derive(Component, Clone, Debug)]
@@ -19,7 +27,7 @@ pub(crate) struct SliceSource {
     facets: Arc<[Facet]>,
     /// What holds them.
     bounds: Aabb,
-    measure: VolumeMeasure,
+    volume: DrawnVolume,
     settings: TexelSettings,
     /// The children that colours across u, v and w are drawn by, and those for depth.
     pub slices: [Entity; 6],
@@ -29,29 +37,40 @@ impl SliceSource {
     pub(crate) fn new(
         facets: &Arc<[Facet]>,
         bounds: Aabb,
-        measure: VolumeMeasure,
+        volume: DrawnVolume,
         settings: TexelSettings,
         slices: [Entity; 6],
     ) -> Self {
         Self {
             facets: facets.clone(),
             bounds,
-            measure,
+            volume,
             settings,
             slices,
         }
+    }
+
+    /// Follows facets that have moved. False if they have not.
+    pub(crate) fn follow(&mut self, facets: &Arc<[Facet]>, bounds: Aabb) -> bool {
+        let has_moved = !Arc::ptr_eq(&self.facets, facets);
+        if has_moved {
+            self.facets = facets.clone();
+            self.bounds = bounds;
+        }
+        has_moved
     }
 
     /// Whether [`new`](Self::new) would make the same of these.
     pub(crate) fn is_of(
         &self,
         facets: &Arc<[Facet]>,
-        measure: &VolumeMeasure,
+        volume: &DrawnVolume,
         settings: &TexelSettings,
         slices: [Entity; 6],
     ) -> bool {
         Arc::ptr_eq(&self.facets, facets)
-            && self.measure == *measure
+            && self.volume.measure == volume.measure
+            && Arc::ptr_eq(&self.volume.boxes, &volume.boxes)
             && self.settings == *settings
             && self.slices == slices
     }
@@ -129,7 +148,7 @@ impl SliceSource {
                 heights: [0, 1, 2].map(bent),
                 uvs: facet.uvs,
             };
-            let chosen = choose_fading(&facet, &self.measure, &from.view, &quality);
+            let chosen = choose_fading(&facet, &self.volume.measure, &from.view, &quality);
             for slices in chosen.into_iter().flatten() {
                 let [mut low, mut high] = slices.lots;
                 if !fades {
@@ -144,19 +163,29 @@ impl SliceSource {
                         continue;
                     }
                     let range = slice_range(facet.uvs, slices.axis, count);
-                    let record = |slice| SliceRecord {
-                        facet: index,
-                        slice,
-                        count,
-                        lots: [low, high],
-                        // Light sees slices too: those of merged layers stand out by up to half their distance.
-                        inside: slices.inside + slices.depth,
+                    let record = |slice| {
+                        let trim = if settings.empty_slices {
+                            WHOLE
+                        } else {
+                            let (axis, footprint) = (slices.axis, slices.footprint);
+                            let boxes = &self.volume.boxes;
+                            boxes.trim(facet.uvs, axis, slice, count, footprint)?
+                        };
+                        Some(SliceRecord {
+                            facet: index,
+                            slice,
+                            count,
+                            lots: [low, high],
+                            // Light sees slices too: those of merged layers stand out by up to half their distance.
+                            inside: slices.inside + slices.depth,
+                            trim,
+                        })
                     };
                     let list = &mut lists[slices.axis.index()];
                     if slices.along {
-                        list.extend(range.map(record));
+                        list.extend(range.filter_map(record));
                     } else {
-                        list.extend(range.rev().map(record));
+                        list.extend(range.rev().filter_map(record));
                     }
                 }
             }

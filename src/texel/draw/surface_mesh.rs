@@ -1,11 +1,10 @@
 //! From a Bevy mesh to the facets of a surface.
 
-use bevy::math::{Vec2, Vec3};
-use bevy::mesh::{Mesh, MeshVertexAttribute, VertexAttributeValues};
+use bevy::mesh::Mesh;
 use thiserror::Error;
 
 use super::super::facet::{Surface, SurfaceError};
-use super::super::from_mesh::{ShapeMeshError, triangles};
+use super::super::from_mesh::{ShapeMeshError, positions, triangles, uvs, vectors};
 use super::component::ATTRIBUTE_HEIGHT_VECTOR;
 
 /// Why a mesh carries no texels at all.
@@ -21,29 +20,61 @@ pub enum TexelSurfaceError {
     /// The length of height vectors is none.
     #[error("the thickness of the texels is {0}: give it a finite length greater than 0")]
     Thickness(f32),
+    /// The mesh of a `SkinnedMesh` says nothing of joints.
+    #[error(
+        "it has a SkinnedMesh, but its mesh has no joints: give it ATTRIBUTE_JOINT_INDEX (Uint16x4) and \
+         ATTRIBUTE_JOINT_WEIGHT (Float32x4) for each vertex, or remove the SkinnedMesh"
+    )]
+    NoSkin,
+    /// The bind poses of a `SkinnedMesh` are not loaded.
+    #[error("the inverse bind poses of its SkinnedMesh are not loaded: wait for them")]
+    NoBindposes,
+    /// A joint of a `SkinnedMesh` is not there.
+    #[error(
+        "joint {joint} of its SkinnedMesh has no GlobalTransform: keep the entity, or list another one"
+    )]
+    LostJoint {
+        /// Its place in the list of joints.
+        joint: usize,
+    },
+    /// A vertex follows a joint that is not there.
+    #[error(
+        "vertex {vertex}: joint {joint} is not one of {count}: give the SkinnedMesh as many joints and bind poses"
+    )]
+    MissingJoint {
+        /// The vertex.
+        vertex: usize,
+        /// The joint that it names.
+        joint: u16,
+        /// How many there are.
+        count: usize,
+    },
+    /// A joint is nowhere.
+    #[error(
+        "vertex {vertex} is posed to no number: correct the transforms of the joints that it follows"
+    )]
+    NotFinitePose {
+        /// The vertex.
+        vertex: usize,
+    },
+    /// The surface's own transform cannot be undone.
+    #[error(
+        "its own transform has a scale of zero, or is no number: skinned surfaces need one that can be undone"
+    )]
+    FlatTransform,
 }
 
 /// The surface of a mesh.
 pub(crate) fn surface(mesh: &Mesh) -> Result<Surface, ShapeMeshError> {
-    let vectors = |attribute: MeshVertexAttribute, name| -> Result<Vec<Vec3>, ShapeMeshError> {
-        let Some(values) = mesh.try_attribute_option(attribute)? else {
-            return Ok(Vec::new());
-        };
-        let values = values.as_float3().ok_or(ShapeMeshError::Format(name))?;
-        Ok(values.iter().copied().map(Vec3::from).collect())
+    let positions = positions(mesh)?;
+    let or_none = |attribute, name| {
+        let found = vectors(mesh, attribute, name)?;
+        Ok::<_, ShapeMeshError>(found.unwrap_or_default())
     };
-    let uvs: Vec<Vec2> = match mesh.try_attribute_option(Mesh::ATTRIBUTE_UV_0)? {
-        Some(VertexAttributeValues::Float32x2(uvs)) => {
-            uvs.iter().copied().map(Vec2::from).collect()
-        }
-        Some(_) => return Err(ShapeMeshError::Format("texture coordinates")),
-        None => Vec::new(),
-    };
-    let positions = vectors(Mesh::ATTRIBUTE_POSITION, "positions")?;
     Ok(Surface {
-        normals: vectors(Mesh::ATTRIBUTE_NORMAL, "normals")?,
-        uvs,
-        heights: vectors(ATTRIBUTE_HEIGHT_VECTOR, "height vectors")?,
+        normals: or_none(Mesh::ATTRIBUTE_NORMAL, "normals")?,
+        uvs: uvs(mesh)?,
+        heights: or_none(ATTRIBUTE_HEIGHT_VECTOR, "height vectors")?,
         triangles: triangles(mesh, positions.len())?,
         positions,
     })

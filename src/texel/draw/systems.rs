@@ -3,6 +3,7 @@
 use bevy::camera::primitives::Aabb;
 use bevy::camera::visibility::{NoAutoAabb, RenderLayers};
 use bevy::light::NotShadowCaster;
+use bevy::mesh::skinning::SkinnedMesh;
 use bevy::platform::collections::HashSet;
 use bevy::prelude::*;
 use bevy::render::batching::NoAutomaticBatching;
@@ -10,9 +11,10 @@ use bevy::render::renderer::RenderDevice;
 
 use super::super::asset::TexelVolume;
 use super::component::{LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface};
-use super::library::{Drawn, TexelAssets, TexelKeys, TexelLibrary};
+use super::library::{Drawn, GeometryKey, TexelAssets, TexelKeys, TexelLibrary};
 use super::material::TexelMaterial;
 use super::source::SliceSource;
+use crate::lighting::SceneLights;
 use crate::wind::Wind;
 
 /// Marks the children of a [`TexelSurface`] that its slices are drawn by, two for each axis. Made by the plugin; they
@@ -30,6 +32,10 @@ pub(crate) struct TexelDrawn {
 }
 
 impl TexelDrawn {
+    pub(crate) fn geometry(&self) -> GeometryKey {
+        self.keys.geometry
+    }
+
     fn despawn(&self, commands: &mut Commands) {
         for slices in self.slices {
             commands.entity(slices).try_despawn();
@@ -48,9 +54,37 @@ type Attachable<'w> = (
     &'w Mesh3d,
     Option<Ref<'w, TexelHeights>>,
     Has<LiveTexels>,
+    Has<SkinnedMesh>,
     Option<&'w TexelDrawn>,
     Option<&'w SliceSource>,
 );
+
+/// What tells that a surface may have to be drawn with other things.
+type MayHaveChanged = Or<(
+    Changed<TexelSurface>,
+    Changed<TexelSettings>,
+    Changed<Mesh3d>,
+    Changed<TexelHeights>,
+    Added<SkinnedMesh>,
+    With<LiveTexels>,
+    Without<SliceSource>,
+)>;
+
+/// Components of which a surface may have lost one.
+#[derive(bevy::ecs::system::SystemParam)]
+pub(crate) struct Lost<'w, 's> {
+    heights: RemovedComponents<'w, 's, TexelHeights>,
+    live: RemovedComponents<'w, 's, LiveTexels>,
+    skins: RemovedComponents<'w, 's, SkinnedMesh>,
+}
+
+/// The surfaces to look at, from frame to frame, so that nothing is allocated.
+#[derive(bevy::ecs::system::SystemParam)]
+pub(crate) struct Looked<'w, 's> {
+    changed: Query<'w, 's, Entity, (MayHaveChanged, With<TexelSurface>)>,
+    lost: Lost<'w, 's>,
+    list: Local<'s, Vec<Entity>>,
+}
 
 /// The children that slices are drawn by.
 type Slices<'w> = (&'w mut MeshMaterial3d<TexelMaterial>, &'w mut Aabb);
@@ -64,6 +98,7 @@ pub(crate) fn attach(
     device: Option<Res<RenderDevice>>,
     wind: Res<Wind>,
     surfaces: Query<Attachable>,
+    mut looked: Looked,
     mut slices: Query<Slices, (With<TexelSlices>, Without<TexelSurface>)>,
 ) {
     if device.as_ref().is_some_and(|device| device.is_changed()) {
@@ -72,21 +107,37 @@ pub(crate) fn attach(
     let layers = device.map_or(LAYERS, |device| device.limits().max_texture_array_layers);
     let wind = wind.limited();
     let quad = library.quad(&mut assets.meshes);
-    for (entity, surface, settings, mesh, heights, is_live, drawn, source) in &surfaces {
-        let own = (heights.is_some() || is_live).then_some(entity);
+    let mut is_waiting = false;
+    looked.list.clear();
+    if core::mem::take(&mut library.is_stale) {
+        looked.list.extend(surfaces.iter().map(|surface| surface.0));
+    } else {
+        looked.list.extend(&looked.changed);
+        let lost = &mut looked.lost;
+        let lost = (lost.heights.read())
+            .chain(lost.live.read())
+            .chain(lost.skins.read());
+        looked.list.extend(lost);
+    }
+    for &entity in &looked.list {
+        let Ok(found) = surfaces.get(entity) else {
+            continue;
+        };
+        let (entity, surface, settings, mesh, heights, is_live, is_skinned, drawn, source) = found;
+        let own = (heights.is_some() || is_live || is_skinned).then_some(entity);
         let keys = TexelKeys::new(surface, mesh.id(), settings, own);
         let is_stroked = heights.as_ref().is_some_and(|heights| heights.is_changed());
-        let is_moved = is_live || is_stroked;
         let heights = heights.as_deref();
-        if is_moved {
+        // One of joints is posed once these are where they are in this frame.
+        if (is_live || is_stroked) && !is_skinned {
             library.renew(keys.geometry, heights, &mut assets);
         }
-        if is_stroked {
-            library.forget_others(keys.geometry);
-        }
         let found = library.drawn(keys, surface, settings, heights, layers, wind, &mut assets);
-        let (geometry, measure, materials) = match found {
-            Drawn::NotYet => continue,
+        let (geometry, volume, materials) = match found {
+            Drawn::NotYet => {
+                is_waiting = true;
+                continue;
+            }
             Drawn::Nothing => {
                 if let Some(drawn) = drawn {
                     drawn.despawn(&mut commands);
@@ -96,7 +147,7 @@ pub(crate) fn attach(
                 }
                 continue;
             }
-            Drawn::Slices(geometry, measure, materials) => (geometry, measure, materials),
+            Drawn::Slices(geometry, volume, materials) => (geometry, volume, materials),
         };
         let bounds = geometry.bounds_in_wind(settings.flexibility);
         let slices = if let Some(drawn) = drawn {
@@ -127,12 +178,13 @@ pub(crate) fn attach(
             commands.entity(entity).try_insert(drawn);
         }
         let is_as_before =
-            source.is_some_and(|source| source.is_of(&geometry.facets, &measure, settings, slices));
+            source.is_some_and(|source| source.is_of(&geometry.facets, &volume, settings, slices));
         if !is_as_before {
-            let source = SliceSource::new(&geometry.facets, bounds, measure, *settings, slices);
+            let source = SliceSource::new(&geometry.facets, bounds, volume, *settings, slices);
             commands.entity(entity).try_insert(source);
         }
     }
+    library.is_stale |= is_waiting;
 }
 
 /// Follows meshes and volumes that were edited or reloaded.
@@ -143,6 +195,7 @@ pub(crate) fn follow_assets(
     mut library: ResMut<TexelLibrary>,
     mut assets: TexelAssets,
 ) {
+    library.settle();
     for event in edited_volumes.read() {
         if let AssetEvent::Modified { id } = event {
             library.forget_volume(*id);
@@ -150,6 +203,9 @@ pub(crate) fn follow_assets(
     }
     let mut seen = HashSet::<AssetId<Mesh>>::default();
     for event in edited_meshes.read() {
+        if let AssetEvent::Removed { id } = event {
+            library.forget_mesh(*id);
+        }
         if let AssetEvent::Modified { id } = event
             && seen.insert(*id)
         {
@@ -166,6 +222,15 @@ pub(crate) fn follow_wind(
     wind: Res<Wind>,
 ) {
     library.follow_wind(wind.limited(), &mut materials);
+}
+
+/// Tells the materials which lighting the scene's lights call for.
+pub(crate) fn follow_lights(
+    library: Res<TexelLibrary>,
+    mut materials: ResMut<Assets<TexelMaterial>>,
+    lights: SceneLights,
+) {
+    library.follow_lights(&lights, &mut materials);
 }
 
 /// What of a surface its slices follow.
@@ -209,8 +274,10 @@ pub(crate) fn follow_surfaces(
 pub(crate) fn uproot(
     removed: On<Remove, (TexelSurface, Mesh3d)>,
     drawn: Query<&TexelDrawn>,
+    mut library: ResMut<TexelLibrary>,
     mut commands: Commands,
 ) {
+    library.forget_owner(removed.entity);
     if let Ok(drawn) = drawn.get(removed.entity) {
         drawn.despawn(&mut commands);
         if let Ok(mut entity) = commands.get_entity(removed.entity) {

@@ -76,38 +76,52 @@ impl Surface {
     /// # Errors
     /// When lists don't agree, or there are no texture coordinates.
     pub fn facets(&self, thickness: f32) -> Result<SurfaceFacets, SurfaceError> {
+        let mut surface = self.clone();
+        surface.complete(thickness)?;
+        Ok(surface.completed_facets())
+    }
+
+    /// Fills in normals and height vectors where there are none.
+    ///
+    /// # Errors
+    /// As of [`facets`](Self::facets).
+    pub(crate) fn complete(&mut self, thickness: f32) -> Result<(), SurfaceError> {
         self.check()?;
-        let mut normals = if self.normals.is_empty() {
-            self.vertex_normals()
-        } else {
-            self.normals.clone()
-        };
-        for normal in &mut normals {
+        if self.normals.is_empty() {
+            self.normals = self.vertex_normals();
+        }
+        for normal in &mut self.normals {
             *normal = normal.normalize_or_zero();
         }
-        let heights = if self.heights.is_empty() {
-            normals.iter().map(|&normal| normal * thickness).collect()
-        } else {
-            self.heights.clone()
-        };
+        if self.heights.is_empty() {
+            let along = self.normals.iter().map(|&normal| normal * thickness);
+            self.heights = along.collect();
+        }
+        Ok(())
+    }
+
+    /// The facets of a surface that was [completed](Self::complete).
+    pub(crate) fn completed_facets(&self) -> SurfaceFacets {
         let mut found = SurfaceFacets::default();
         for (index, triangle) in (0..).zip(&self.triangles) {
             let vertices = triangle.map(|vertex| vertex as usize);
             let facet = Facet {
                 positions: vertices.map(|vertex| self.positions[vertex]),
-                heights: vertices.map(|vertex| heights[vertex]),
+                heights: vertices.map(|vertex| self.heights[vertex]),
                 uvs: vertices.map(|vertex| self.uvs[vertex]),
             };
             match facet.check() {
                 Ok(()) => {
                     found.facets.push(facet);
-                    found.normals.push(vertices.map(|vertex| normals[vertex]));
+                    found
+                        .normals
+                        .push(vertices.map(|vertex| self.normals[vertex]));
                     found.triangles.push(index);
                 }
                 Err(fault) => found.left_out.push((index, fault)),
             }
         }
-        Ok(found)
+        found
     }
 
     fn check(&self) -> Result<(), SurfaceError> {

@@ -7,9 +7,12 @@
 //!
 //! Slice k of N stands in the middle of its layer, at (k + ½)/N.
 
+mod boxes;
 mod mips;
 
 use bevy::math::Vec3;
+
+pub(crate) use boxes::{SliceBoxes, Trim, WHOLE};
 
 use super::axis::SliceAxis;
 use super::color::{SrgbTable, decode_normal, encode_normal};

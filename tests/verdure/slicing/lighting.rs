@@ -7,7 +7,7 @@ use bevy_verdure::prelude::*;
 use super::{SIZE, UNLIT, covered, eye, mean, shot, studio, sun};
 
 /// The crown over which `sun` stands, seen from beside.
-fn picture(studio: &mut Studio, crown: Entity, lighting: CrownLighting) -> Pixels {
+fn picture(studio: &mut Studio, crown: Entity, lighting: PlantLighting) -> Pixels {
     let settings = CrownSettings {
         lighting,
         ..default()
@@ -28,9 +28,9 @@ fn simple_light_looks_like_full_light() {
             ..default()
         });
         let [full, simple, unlit] = [
-            CrownLighting::Full,
-            CrownLighting::Simple,
-            CrownLighting::Unlit,
+            PlantLighting::Full,
+            PlantLighting::Simple,
+            PlantLighting::Unlit,
         ]
         .map(|lighting| picture(&mut studio, crown, lighting));
         let flip = |a: &Pixels| mean_flip((SIZE.x, SIZE.y), &full.rgb_bytes(), &a.rgb_bytes());
@@ -51,7 +51,7 @@ fn simple_light_looks_like_full_light() {
 fn a_second_sun_lights_as_in_full_light_while_it_is_there() {
     let (mut studio, crown) = studio(UNLIT);
     sun(&mut studio);
-    let before = picture(&mut studio, crown, CrownLighting::Simple);
+    let before = picture(&mut studio, crown, PlantLighting::Simple);
     let second = (
         DirectionalLight {
             illuminance: 4_000.0,
@@ -61,7 +61,7 @@ fn a_second_sun_lights_as_in_full_light_while_it_is_there() {
     );
     let second = studio.world().spawn(second).id();
     studio.headless.step();
-    let [full, simple] = [CrownLighting::Full, CrownLighting::Simple]
+    let [full, simple] = [PlantLighting::Full, PlantLighting::Simple]
         .map(|lighting| picture(&mut studio, crown, lighting));
     assert!(mean(&simple, 1) > mean(&before, 1) + 2.0, "it lights");
     // As for one sun.
@@ -69,7 +69,7 @@ fn a_second_sun_lights_as_in_full_light_while_it_is_there() {
     assert!(error < 0.02, "{error}");
     studio.world().despawn(second);
     studio.headless.step();
-    let after = picture(&mut studio, crown, CrownLighting::Simple);
+    let after = picture(&mut studio, crown, PlantLighting::Simple);
     assert_eq!(after.rgb_bytes(), before.rgb_bytes());
 }
 
@@ -77,7 +77,7 @@ fn a_second_sun_lights_as_in_full_light_while_it_is_there() {
 fn lamps_call_for_full_light_while_they_are_there() {
     let (mut studio, crown) = studio(UNLIT);
     sun(&mut studio);
-    let before = picture(&mut studio, crown, CrownLighting::Simple);
+    let before = picture(&mut studio, crown, PlantLighting::Simple);
     let lamps: [fn(&mut World) -> Entity; 2] = [
         |world| {
             let lamp = PointLight {
@@ -101,13 +101,13 @@ fn lamps_call_for_full_light_while_they_are_there() {
     for lamp in lamps {
         let lamp = lamp(studio.world());
         studio.headless.step();
-        let full = picture(&mut studio, crown, CrownLighting::Full);
-        let simple = picture(&mut studio, crown, CrownLighting::Simple);
+        let full = picture(&mut studio, crown, PlantLighting::Full);
+        let simple = picture(&mut studio, crown, PlantLighting::Simple);
         assert_eq!(simple.rgb_bytes(), full.rgb_bytes());
         assert!(mean(&simple, 1) > mean(&before, 1) + 2.0, "the lamp lights");
         studio.world().despawn(lamp);
         studio.headless.step();
-        let after = picture(&mut studio, crown, CrownLighting::Simple);
+        let after = picture(&mut studio, crown, PlantLighting::Simple);
         assert_eq!(after.rgb_bytes(), before.rgb_bytes());
     }
 }

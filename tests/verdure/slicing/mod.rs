@@ -52,7 +52,7 @@ const UNLIT: CrownSettings = CrownSettings {
     composition: Composition::Blended,
     order: SliceOrder::Steady,
     left_out: 0,
-    lighting: CrownLighting::Unlit,
+    lighting: PlantLighting::Unlit,
     frames: false,
 };
 

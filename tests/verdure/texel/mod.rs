@@ -1,10 +1,13 @@
 //! Texels as they are drawn.
 
 mod agreement;
+mod lighting;
 mod passes;
 mod selection;
+mod skinned;
 mod steady;
 mod twins;
+mod uploads;
 mod views;
 
 use std::sync::LazyLock;
@@ -97,7 +100,7 @@ fn reference(facet: &Facet) -> ReferenceFacet {
 /// Colours of the volume, as they are.
 fn unlit() -> TexelSettings {
     TexelSettings {
-        lit: false,
+        lighting: PlantLighting::Unlit,
         ..default()
     }
 }

@@ -49,6 +49,7 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
     let position = slice_position(i32(cases[i][35]), u32(cases[i][36]));
     put(i, 0u, slice_line_end(facet.uvs, axis, position, false));
     put(i, 3u, slice_line_end(facet.uvs, axis, position, true));
+    put(i, 24u, slice_line_point(facet.uvs, axis, position, 0.3));
     put(i, 6u, facet_point(facet, b, w));
     let frame = texel_frame(facet, b, w);
     put(i, 9u, frame.edges[0]);
@@ -233,6 +234,8 @@ fn shaders_place_slices_as_rust_does() {
         for (end, at) in ends.into_iter().zip([0, 3]) {
             assert!(vector(at).distance(end) < 1e-5, "{case:?}: {}", vector(at));
         }
+        let between = ends[0].lerp(ends[1], 0.3);
+        assert!(vector(24).distance(between) < 1e-5, "{case:?}");
         // Roundings of a few operations, at the size of the facet.
         let size = facet.bounds().1;
         let point = facet.point(case.b, case.w);

@@ -105,6 +105,13 @@ fn slice_line_end(uvs: mat3x2<f32>, axis: u32, position: f32, last: bool) -> vec
     return vec3(t, 0.0, 1.0 - t);
 }
 
+// The weights at a share of that line. At its ends they are theirs to the last bit, so that facets meet.
+fn slice_line_point(uvs: mat3x2<f32>, axis: u32, position: f32, share: f32) -> vec3<f32> {
+    let nearer = slice_line_end(uvs, axis, position, share > 0.5);
+    let other = slice_line_end(uvs, axis, position, share <= 0.5);
+    return nearer + (other - nearer) * min(share, 1.0 - share);
+}
+
 // The share of the second vertex. From the lower end, whichever facet asks.
 fn edge_share(first: f32, second: f32, position: f32) -> f32 {
     let low = min(first, second);

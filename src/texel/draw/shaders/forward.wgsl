@@ -5,6 +5,7 @@
     pbr_functions,
     pbr_types,
 }
+#import bevy_verdure::lighting::simple::{Leaf, simple_light}
 #import bevy_verdure::texel::look::{seen_samples, slice_color, slice_normal, slice_normal_and_alpha}
 #ifdef TEXEL_NORMALS
 #import bevy_verdure::texel::look::world_normal
@@ -43,6 +44,8 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     _ = seen_samples(in, slice_normal_and_alpha(in).a);
     let seen = slice_color(in);
     let normal = world_normal(in, slice_normal(in));
+    // Lit and shadowed where the surface is, above the inside that slices show (§4.1).
+    let surface = in.world_position.xyz + normal * in.inside;
     var input = pbr_types::pbr_input_new();
     input.material.base_color = vec4(seen, 1.0);
     input.material.perceptual_roughness = texels.roughness;
@@ -50,15 +53,17 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     input.material.flags = input.material.flags | pbr_types::STANDARD_MATERIAL_FLAGS_FOG_ENABLED_BIT;
     input.flags = in.flags;
     input.frag_coord = in.position;
-    // Lit and shadowed where the surface is, above the inside that slices show (§4.1).
-    input.world_position = vec4(in.world_position.xyz + normal * in.inside, 1.0);
+    input.world_position = vec4(surface, 1.0);
+    var color = input.material.base_color;
+#ifdef TEXEL_FULL_LIGHT
     input.world_normal = normal;
     input.N = normal;
     input.is_orthographic = is_orthographic();
     input.V = pbr_functions::calculate_view(in.world_position, input.is_orthographic);
-    var color = input.material.base_color;
-#ifdef TEXEL_LIT
     color = pbr_functions::apply_pbr_lighting(input);
+#else ifdef TEXEL_SIMPLE_LIGHT
+    let leaf = Leaf(surface, normal, 1.0, in.position.xy, 0u, in.flags);
+    color = vec4(simple_light(leaf, seen), 1.0);
 #endif
     color = pbr_functions::main_pass_post_lighting_processing(input, color);
     return vec4(color.rgb, 1.0);

@@ -10,16 +10,11 @@
 fn slice_normal_and_alpha(in: Varying) -> vec4<f32> {
 #ifdef TEXEL_DIRECTIONAL_LIGHT
     // Of what casts a shadow one pixel says enough, in the level whose pixels are those of the shadow map.
-    let size = vec2<f32>(textureDimensions(normal_texture));
-    let dx = dpdx(in.uv) * size;
-    let dy = dpdy(in.uv) * size;
-    let level = 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1.0)) + 0.5;
-    let mip = min(u32(level), textureNumLevels(normal_texture) - 1u);
-    let columns_and_rows = max(textureDimensions(normal_texture) >> vec2(mip), vec2(1u));
+    let columns_and_rows = max(textureDimensions(normal_texture) >> vec2(in.level), vec2(1u));
     // Rows of upright slices are heights, which end.
     let inside = select(fract(in.uv), vec2(fract(in.uv.x), in.uv.y), AXIS != 2u);
     let pixel = min(vec2<u32>(inside * vec2<f32>(columns_and_rows)), columns_and_rows - 1u);
-    return textureLoad(normal_texture, pixel, in.layer, mip);
+    return textureLoad(normal_texture, pixel, in.layer, in.level);
 #else
     return textureSample(normal_texture, level_sampler, in.uv, in.layer);
 #endif

@@ -4,8 +4,8 @@
 
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_render::globals::Globals
-#import bevy_verdure::texel::facet::{Facet, facet_point, facet_uv, normal_transform, slice_line_end, slice_position, smooth_frame, texel_frame}
-#import bevy_verdure::texel::types::{facets, texels}
+#import bevy_verdure::texel::facet::{Facet, TexelFrame, facet_point, facet_uv, normal_transform, slice_line_point, slice_position, smooth_frame, texel_frame}
+#import bevy_verdure::texel::types::{facets, normal_texture, texels}
 #import bevy_verdure::wind::sway
 
 #ifdef PREPASS_PIPELINE
@@ -24,15 +24,17 @@ struct Corner {
     @location(0) slice: vec3<u32>,
     // Which pixels are its, from one lot to another, and how far the surface may be above the place inside of it that is seen.
     @location(1) look: vec3<f32>,
+    // What of it is drawn: from where to where along its line, and up its height vectors, from 0 to 1.
+    @location(2) trim: vec4<f32>,
     // Rows of the transform from the surface to the world, now and in the frame before.
-    @location(2) row_x: vec4<f32>,
-    @location(3) row_y: vec4<f32>,
-    @location(4) row_z: vec4<f32>,
-    @location(5) previous_x: vec4<f32>,
-    @location(6) previous_y: vec4<f32>,
-    @location(7) previous_z: vec4<f32>,
+    @location(3) row_x: vec4<f32>,
+    @location(4) row_y: vec4<f32>,
+    @location(5) row_z: vec4<f32>,
+    @location(6) previous_x: vec4<f32>,
+    @location(7) previous_y: vec4<f32>,
+    @location(8) previous_z: vec4<f32>,
     // Bevy's flags of a mesh.
-    @location(8) flags: u32,
+    @location(9) flags: u32,
 }
 
 struct Varying {
@@ -54,6 +56,10 @@ struct Varying {
 #endif
     @location(8) @interpolate(flat) inside: f32,
     @location(9) @interpolate(flat) lots: vec2<f32>,
+#ifdef TEXEL_DIRECTIONAL_LIGHT
+    // The mip level whose pixels are as large as those of the shadow map.
+    @location(10) @interpolate(flat) level: u32,
+#endif
 }
 
 fn is_orthographic() -> bool {
@@ -90,6 +96,29 @@ fn bend(foot: vec3<f32>, height: vec3<f32>) -> vec3<f32> {
     return bent * (tall / max(length(bent), 1e-30));
 }
 
+#ifdef TEXEL_DIRECTIONAL_LIGHT
+
+// The mip level of a slice in an orthographic view, in which it is the same everywhere.
+fn slice_level(frame: TexelFrame) -> u32 {
+    let v = view.view_from_world;
+    let c = view.clip_from_view;
+    let to_pixels = mat3x3(v[0].xyz, v[1].xyz, v[2].xyz);
+    let f = 0.5 * view.viewport.zw * vec2(c[0].x, c[1].y);
+    // Pixels of the view that columns and rows of the slice cover, all of them.
+    let columns = (to_pixels * frame.edges[select(0u, 1u, AXIS == 0u)]).xy * f;
+    let rows = (to_pixels * frame.edges[select(2u, 1u, AXIS == 2u)]).xy * f;
+    let det = columns.x * rows.y - columns.y * rows.x;
+    // And those of the slice that one of the view covers, along x and along y.
+    let size = vec2<f32>(textureDimensions(normal_texture)) / det;
+    let dx = vec2(rows.y, -columns.y) * size;
+    let dy = vec2(-rows.x, columns.x) * size;
+    let level = 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1.0)) + 0.5;
+    // Slices that are seen along themselves cover nothing.
+    return u32(min(level, f32(textureNumLevels(normal_texture) - 1u)));
+}
+
+#endif
+
 fn place_corner(in: Corner) -> Varying {
     var out: Varying;
     let turn = transpose(mat3x3(in.row_x.xyz, in.row_y.xyz, in.row_z.xyz));
@@ -108,8 +137,8 @@ fn place_corner(in: Corner) -> Varying {
     } else {
         // A line, from the surface to the top.
         let position = slice_position(slice, count);
-        b = slice_line_end(facet.uvs, AXIS, position, corner == 1u || corner == 2u);
-        w = f32(corner >= 2u);
+        b = slice_line_point(facet.uvs, AXIS, position, select(in.trim.x, in.trim.y, corner == 1u || corner == 2u));
+        w = select(in.trim.z, in.trim.w, corner >= 2u);
     }
     let uv = facet_uv(facet, b);
     out.uv = vec2(select(uv.x, uv.y, AXIS == 0u), select(w, uv.y, AXIS == 2u));
@@ -124,6 +153,7 @@ fn place_corner(in: Corner) -> Varying {
 #ifdef TEXEL_DIRECTIONAL_LIGHT
     // What is nearer to the sun than its shadow map casts shadows all the same.
     clip.z = min(clip.z, 1.0);
+    out.level = slice_level(texel_frame(facet, b, w));
 #endif
     out.position = clip;
     out.world_position = vec4(from_eye + view.world_position, 1.0);

@@ -1,4 +1,4 @@
-#define_import_path bevy_verdure::slicing::simple
+#define_import_path bevy_verdure::lighting::simple
 
 // Light that costs little: directional lights with their shadow maps, and ambient light, on leaves that scatter evenly.
 
@@ -84,7 +84,7 @@ fn simple_light(leaf: Leaf, color: vec3<f32>) -> vec3<f32> {
     if lights.n_directional_lights > 0u {
         light += add_light(0u, leaf, color, depth);
     }
-#ifdef CROWN_MORE_SUNS
+#ifdef MORE_SUNS
     for (var i = 1u; i < lights.n_directional_lights; i += 1u) {
         light += add_light(i, leaf, color, depth);
     }

@@ -7,7 +7,7 @@ use bevy::light::{
 };
 use bevy::prelude::*;
 
-use super::component::CrownLighting;
+use super::PlantLighting;
 
 /// What simple lighting leaves out.
 type Rich = Or<(
@@ -24,21 +24,21 @@ type Rich = Or<(
 
 /// The lights of the scene, hidden ones included.
 #[derive(SystemParam)]
-pub(crate) struct CrownLights<'w, 's> {
+pub(crate) struct SceneLights<'w, 's> {
     rich: Query<'w, 's, (), Rich>,
     suns: Query<'w, 's, (), With<DirectionalLight>>,
 }
 
-/// What lights crowns in a scene.
+/// What lights plants in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct SceneLighting {
-    pub(crate) lighting: CrownLighting,
+    pub(crate) lighting: PlantLighting,
     /// Whether there is more than one directional light, for which simple lighting needs a loop.
     pub(crate) more_suns: bool,
 }
 
-impl From<CrownLighting> for SceneLighting {
-    fn from(lighting: CrownLighting) -> Self {
+impl From<PlantLighting> for SceneLighting {
+    fn from(lighting: PlantLighting) -> Self {
         Self {
             lighting,
             more_suns: false,
@@ -46,16 +46,16 @@ impl From<CrownLighting> for SceneLighting {
     }
 }
 
-impl CrownLights<'_, '_> {
-    /// The lighting for crowns that are to have `wanted`.
-    pub(crate) fn lighting(&self, wanted: CrownLighting) -> SceneLighting {
+impl SceneLights<'_, '_> {
+    /// The lighting for plants that are to have `wanted`.
+    pub(crate) fn lighting(&self, wanted: PlantLighting) -> SceneLighting {
         match wanted {
-            CrownLighting::Simple if self.rich.is_empty() => SceneLighting {
+            PlantLighting::Simple if self.rich.is_empty() => SceneLighting {
                 lighting: wanted,
                 more_suns: self.suns.iter().nth(1).is_some(),
             },
-            CrownLighting::Simple => CrownLighting::Full.into(),
-            CrownLighting::Full | CrownLighting::Unlit => wanted.into(),
+            PlantLighting::Simple => PlantLighting::Full.into(),
+            PlantLighting::Full | PlantLighting::Unlit => wanted.into(),
         }
     }
 }

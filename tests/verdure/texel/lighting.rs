@@ -1,0 +1,67 @@
+//! Texels in full light, in simple light and in none.
+
+use bevy::prelude::*;
+use bevy_verdure::lab::{Pixels, Studio, mean_flip};
+use bevy_verdure::prelude::*;
+
+use super::passes::{floor, mean};
+use super::{SIZE, Square, cover, shot};
+
+fn picture(studio: &mut Studio, surface: Entity, lighting: PlantLighting) -> Pixels {
+    let settings = TexelSettings {
+        lighting,
+        ..default()
+    };
+    studio.world().entity_mut(surface).insert(settings);
+    studio.headless.step();
+    studio.photograph(&shot(Vec3::new(1.9, 2.3, 1.2)), Color::srgb(0.6, 0.8, 1.0))
+}
+
+#[test]
+fn simple_light_looks_like_full_light_and_gives_way_to_it() {
+    let mut studio = Studio::default();
+    floor(&mut studio);
+    let surface = cover(
+        &mut studio,
+        &Square::default(),
+        Transform::IDENTITY,
+        TexelSettings::default(),
+    );
+    let sun = DirectionalLight {
+        shadow_maps_enabled: true,
+        ..default()
+    };
+    let aslant = Transform::default().looking_to(Vec3::new(-0.7, -1.0, -0.3), Vec3::Y);
+    studio.world().spawn((sun, aslant));
+    let [full, simple, unlit] = [
+        PlantLighting::Full,
+        PlantLighting::Simple,
+        PlantLighting::Unlit,
+    ]
+    .map(|lighting| picture(&mut studio, surface, lighting));
+    let flip = |a: &Pixels, b: &Pixels| mean_flip((SIZE.x, SIZE.y), &a.rgb_bytes(), &b.rgb_bytes());
+    let (near, far) = (flip(&full, &simple), flip(&full, &unlit));
+    println!("simple {near:.4}, unlit {far:.4}");
+    // What differs is the rim, where gloss is more than in the mean, and the edges of shadows: together some 250 pixels of
+    // 12,288, of which each may be wholly wrong.
+    assert!(near < 0.02, "{near}");
+    assert!(far > 2.0 * near, "{near} {far}");
+
+    let lamp = PointLight {
+        intensity: 300_000.0,
+        ..default()
+    };
+    let lamp = studio
+        .world()
+        .spawn((lamp, Transform::from_xyz(2.0, 1.5, 0.5)))
+        .id();
+    studio.headless.step();
+    let [full, lamplit] = [PlantLighting::Full, PlantLighting::Simple]
+        .map(|lighting| picture(&mut studio, surface, lighting));
+    assert_eq!(full.rgb_bytes(), lamplit.rgb_bytes());
+    assert!(mean(&lamplit) > mean(&simple) + 2.0, "the lamp lights");
+    studio.world().despawn(lamp);
+    studio.headless.step();
+    let after = picture(&mut studio, surface, PlantLighting::Simple);
+    assert_eq!(after.rgb_bytes(), simple.rgb_bytes());
+}
