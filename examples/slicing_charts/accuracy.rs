@@ -119,7 +119,8 @@ fn baked(lab: &mut Lab, bakes: &[BakeSettings]) -> Result<Vec<(String, Drawn)>, 
 
 /// Eyes on a circle, off the orientations.
 pub fn circle(lab: &Lab, distance: f32) -> Vec<Shot> {
-    let count = if lab.quick { 4 } else { 9 };
+    // Neither shares a divisor with most numbers of orientations, so that all discrepancy angles come up.
+    let count = if lab.quick { 5 } else { 9 };
     (0..count)
         .map(|i| shot(lab, distance, 3.0 + 360.0 / count as f32 * i as f32, 4.0))
         .collect()
