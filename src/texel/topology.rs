@@ -16,7 +16,7 @@ pub enum Topology {
 }
 
 /// What the sides of a volume are like.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TopologyReport {
     /// Opaque voxels on the four sides along u and v.
     pub on_border: usize,

@@ -106,7 +106,7 @@ impl Draft {
     pub fn fill(
         mut self,
         spreading: Spreading,
-        mut report: FillReport,
+        mut report: BuildReport,
         progress: Progress,
     ) -> Result<Built, TexelError> {
         report.closing_voxels = close(&mut self);
@@ -117,7 +117,7 @@ impl Draft {
     }
 
     /// Makes the volume.
-    pub fn finish(self, report: FillReport, progress: Progress) -> Result<Built, TexelError> {
+    pub fn finish(self, mut report: BuildReport, progress: Progress) -> Result<Built, TexelError> {
         progress(BuildStep::Spreading, 1.0);
         let table = SrgbTable::new();
         let mut voxels = vec![([0; 4], [0; 4]); self.cells.len()];
@@ -141,24 +141,7 @@ impl Draft {
             normals,
         };
         let volume = ReferenceVolume::new(parts, progress)?;
-        let report = BuildReport {
-            surface_voxels: report.surface_voxels,
-            closing_voxels: report.closing_voxels,
-            inside_voxels: report.inside_voxels,
-            zero_area_triangles: report.zero_area_triangles,
-            failed_columns: report.failed_columns,
-            topology: volume.topology_report(),
-        };
+        report.topology = volume.topology_report();
         Ok(Built { volume, report })
     }
-}
-
-/// What is known of a build before there is a volume.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct FillReport {
-    pub surface_voxels: usize,
-    pub closing_voxels: usize,
-    pub inside_voxels: usize,
-    pub zero_area_triangles: usize,
-    pub failed_columns: usize,
 }

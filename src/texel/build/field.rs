@@ -9,8 +9,8 @@ use bevy::math::Vec3;
 use super::super::error::TexelError;
 use super::super::parallel::for_each_chunk;
 use super::super::progress::{BuildStep, Progress};
-use super::draft::{Cell, Draft, FillReport, Mark};
-use super::{Built, VolumeSettings};
+use super::draft::{Cell, Draft, Mark};
+use super::{BuildReport, Built, VolumeSettings};
 
 /// Builds a volume from an implicit function, which is greater than one inside.
 ///
@@ -92,9 +92,9 @@ fn evaluate(
     if let Some((_, error)) = failure.into_inner().expect("nothing here panics") {
         return Err(error);
     }
-    let report = FillReport {
+    let report = BuildReport {
         surface_voxels: draft.count(Mark::Coloured),
-        ..FillReport::default()
+        ..BuildReport::default()
     };
     draft.finish(report, progress)
 }

@@ -6,8 +6,8 @@ use super::super::color::SrgbTable;
 use super::super::error::TexelError;
 use super::super::progress::{BuildStep, Progress};
 use super::super::topology::Topology;
-use super::draft::{Cell, Draft, FillReport, Mark};
-use super::{Built, VolumeSettings};
+use super::draft::{Cell, Draft, Mark};
+use super::{BuildReport, Built, VolumeSettings};
 
 /// Heights over the surface, with colours.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,9 +105,9 @@ pub fn from_height_field(
         }
     }
     progress(BuildStep::Slicing, 1.0);
-    let report = FillReport {
+    let report = BuildReport {
         surface_voxels: draft.count(Mark::Coloured),
-        ..FillReport::default()
+        ..BuildReport::default()
     };
     draft.fill(settings.spreading, report, progress)
 }

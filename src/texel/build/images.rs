@@ -5,8 +5,8 @@ use bevy::math::{UVec3, Vec3};
 use super::super::color::SrgbTable;
 use super::super::error::TexelError;
 use super::super::progress::{BuildStep, Progress};
-use super::draft::{Cell, Draft, FillReport, Mark};
-use super::{Built, VolumeSettings};
+use super::draft::{Cell, Draft, Mark};
+use super::{BuildReport, Built, VolumeSettings};
 
 /// One slice.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,9 +76,9 @@ pub fn from_images(
         cell.normal = normal;
     }
     progress(BuildStep::Slicing, 1.0);
-    let report = FillReport {
+    let report = BuildReport {
         surface_voxels: draft.count(Mark::Coloured),
-        ..FillReport::default()
+        ..BuildReport::default()
     };
     draft.finish(report, progress)
 }

@@ -82,7 +82,7 @@ pub struct Built {
 }
 
 /// What was done to build a volume.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BuildReport {
     /// Voxels coloured by the shape itself.
     pub surface_voxels: usize,

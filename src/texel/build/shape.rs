@@ -5,11 +5,11 @@ use bevy::math::{UVec3, Vec2, Vec3, Vec4};
 use super::super::error::TexelError;
 use super::super::progress::{BuildStep, Progress};
 use super::super::topology::Topology;
-use super::draft::{Draft, FillReport, Mark};
+use super::draft::{Draft, Mark};
 use super::edges::check_closed;
 use super::inside::{mark_by_flood, mark_by_parity};
 use super::rasterise::rasterise;
-use super::{Built, Paint, Spreading};
+use super::{BuildReport, Built, Paint, Spreading};
 
 /// Triangles with paint, in a space whose third axis is up.
 ///
@@ -108,9 +108,9 @@ pub fn from_shape(
             on_border(2, a, b) || (sides && (on_border(0, a, b) || on_border(1, a, b)))
         })?;
     }
-    let mut report = FillReport {
+    let mut report = BuildReport {
         zero_area_triangles: rasterise(&mut draft, shape, settings.filling, min, progress),
-        ..FillReport::default()
+        ..BuildReport::default()
     };
     report.surface_voxels = draft.count(Mark::Coloured);
     match settings.filling {

@@ -233,7 +233,8 @@ mod tests {
         }
         assert!(changed(&before, &before).is_empty());
         assert_eq!(changed(&before, &after), [3..7, 12..13, 20..21]);
-        assert_eq!(changed(&after, &before[..5]), [3..4]);
+        let fewer = changed(&after, &before[..5]);
+        assert_eq!(fewer.as_slice(), core::slice::from_ref(&(3..4)));
     }
 
     #[test]

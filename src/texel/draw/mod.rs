@@ -7,12 +7,16 @@
 //! 2. In each frame, and for each view, those of lights too, slices are [chosen](super::choose_fading) for every facet, and
 //!    listed, near ones first: by the CPU, in parallel, without allocating (`source.rs`, `lists.rs`). So shadow maps have
 //!    the slices that their light needs, at a quality of their own ([`TexelSettings::shadows`]).
+//!    Of each slice only the box that shows anything is drawn.
 //! 3. The lists are drawn in Bevy's phases in place of meshes (`commands.rs`): each slice is a strip of four corners that
 //!    the vertex shader cuts out of the facet's prism (`shaders/place.wgsl`, `shaders/facet.wgsl`).
 //! 4. Fragments are those of one slice: opaque, or discarded (`shaders/look.wgsl`). So they need no sorting, and texels
 //!    that overlap interpenetrate. Depth is drawn first, in the phase of opaque objects; then, in that of masked ones, the
 //!    colours of what is at that depth (`material.rs`), lit by the scene by the volume's normals (`shaders/forward.wgsl`).
 //!    They cast shadows (`shaders/prepass.wgsl`).
+//!
+//! Facets of skinned meshes follow their joints on the CPU, once these are where they are in a frame (`skin.rs`). Of facets that
+//! moved those that changed are written to the GPU (`upload.rs`).
 //!
 //! # What does not pop
 //! Where twice as many slices will soon be needed, they fade in, and so does the second best direction where it is nearly as

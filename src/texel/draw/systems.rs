@@ -78,11 +78,13 @@ pub(crate) struct Lost<'w, 's> {
     skins: RemovedComponents<'w, 's, SkinnedMesh>,
 }
 
-/// The surfaces to look at, from frame to frame, so that nothing is allocated.
+/// The surfaces, and which of them to look at.
 #[derive(bevy::ecs::system::SystemParam)]
 pub(crate) struct Looked<'w, 's> {
+    surfaces: Query<'w, 's, Attachable<'static>>,
     changed: Query<'w, 's, Entity, (MayHaveChanged, With<TexelSurface>)>,
     lost: Lost<'w, 's>,
+    /// Kept from frame to frame, so that nothing is allocated.
     list: Local<'s, Vec<Entity>>,
 }
 
@@ -97,7 +99,6 @@ pub(crate) fn attach(
     mut assets: TexelAssets,
     device: Option<Res<RenderDevice>>,
     wind: Res<Wind>,
-    surfaces: Query<Attachable>,
     mut looked: Looked,
     mut slices: Query<Slices, (With<TexelSlices>, Without<TexelSurface>)>,
 ) {
@@ -110,7 +111,8 @@ pub(crate) fn attach(
     let mut is_waiting = false;
     looked.list.clear();
     if core::mem::take(&mut library.is_stale) {
-        looked.list.extend(surfaces.iter().map(|surface| surface.0));
+        let surfaces = looked.surfaces.iter();
+        looked.list.extend(surfaces.map(|surface| surface.0));
     } else {
         looked.list.extend(&looked.changed);
         let lost = &mut looked.lost;
@@ -119,8 +121,8 @@ pub(crate) fn attach(
             .chain(lost.skins.read());
         looked.list.extend(lost);
     }
-    for &entity in &looked.list {
-        let Ok(found) = surfaces.get(entity) else {
+    for &entity in &*looked.list {
+        let Ok(found) = looked.surfaces.get(entity) else {
             continue;
         };
         let (entity, surface, settings, mesh, heights, is_live, is_skinned, drawn, source) = found;

@@ -6,6 +6,7 @@ mod passes;
 mod selection;
 mod skinned;
 mod steady;
+mod turns;
 mod twins;
 mod uploads;
 mod views;
