@@ -1,6 +1,10 @@
 //! Crowns in full light, in simple light and in none.
 
+use bevy::asset::RenderAssetUsages;
 use bevy::prelude::*;
+use bevy::render::render_resource::{
+    Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
+};
 use bevy_verdure::lab::{Pixels, Studio, mean_flip};
 use bevy_verdure::prelude::*;
 
@@ -110,4 +114,48 @@ fn lamps_call_for_full_light_while_they_are_there() {
         let after = picture(&mut studio, crown, PlantLighting::Simple);
         assert_eq!(after.rgb_bytes(), before.rgb_bytes());
     }
+}
+
+#[test]
+fn an_environment_map_calls_for_full_light_while_it_is_there() {
+    let (mut studio, crown) = studio(UNLIT);
+    sun(&mut studio);
+    let before = picture(&mut studio, crown, PlantLighting::Simple);
+    let size = Extent3d {
+        width: 1,
+        height: 1,
+        depth_or_array_layers: 6,
+    };
+    let mut sky = Image::new(
+        size,
+        TextureDimension::D2,
+        [255; 24].to_vec(),
+        TextureFormat::Rgba8Unorm,
+        RenderAssetUsages::default(),
+    );
+    sky.texture_view_descriptor = Some(TextureViewDescriptor {
+        dimension: Some(TextureViewDimension::Cube),
+        ..default()
+    });
+    let sky = studio.world().resource_mut::<Assets<Image>>().add(sky);
+    let map = EnvironmentMapLight {
+        diffuse_map: sky.clone(),
+        specular_map: sky,
+        intensity: 1_000.0,
+        ..default()
+    };
+    let camera = studio.camera();
+    studio.world().entity_mut(camera).insert(map);
+    studio.headless.step();
+    let [full, simple] = [PlantLighting::Full, PlantLighting::Simple]
+        .map(|lighting| picture(&mut studio, crown, lighting));
+    assert_eq!(simple.rgb_bytes(), full.rgb_bytes());
+    assert!(mean(&simple, 1) > mean(&before, 1) + 2.0, "the sky lights");
+    studio
+        .world()
+        .entity_mut(camera)
+        .remove::<EnvironmentMapLight>();
+    studio.headless.step();
+    let after = picture(&mut studio, crown, PlantLighting::Simple);
+    assert_eq!(after.rgb_bytes(), before.rgb_bytes());
 }
