@@ -243,7 +243,7 @@ fn a_slice_that_faces_the_light_casts_the_shadow_of_an_ellipsoid() {
     ] {
         let light = light.normalize();
         for i in 0..16 {
-            let (sin, cos) = (i as f32 * 0.3927).sin_cos();
+            let (sin, cos) = (i as f32 * core::f32::consts::FRAC_PI_8).sin_cos();
             let edge = Vec3::new(half.x * cos, half.y * sin, 0.0);
             let cast = facing(&o, light, edge);
             assert!(cast.dot(light).abs() < 1e-5, "it faces the light");
