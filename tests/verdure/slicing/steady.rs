@@ -57,8 +57,9 @@ fn a_lit_crown_shimmers_less_than_its_mesh_on_a_slow_walk() {
         let (largest, median) = walk(&mut slices, from, step);
         let (_, of_mesh) = walk(&mut mesh, from, step);
         println!("{from} m: largest {largest:.4}, median {median:.4}, the mesh's {of_mesh:.4}");
-        // As for the swap.
-        assert!(largest <= 1.5 * median, "{from} m: {largest} {median}");
+        // As for the swap; or half of what the mesh changes by in any frame, where the crown is as steady as that.
+        let bound = (1.5 * median).max(0.5 * of_mesh);
+        assert!(largest <= bound, "{from} m: {largest} {median} {of_mesh}");
         assert!(median < of_mesh, "{from} m: {median} {of_mesh}");
     }
 }
