@@ -3,9 +3,7 @@
 //! Each block has two colours of 5, 6 and 5 bits with two between them, and two opacities of 8 bits with six between them. The
 //! crate `texpresso` (libsquish) fits the colours to the ends of their principal axis.
 
-use texpresso::{
-    Algorithm, COLOUR_WEIGHTS_PERCEPTUAL, COLOUR_WEIGHTS_UNIFORM, ColourWeights, Format, Params,
-};
+use texpresso::{Algorithm, COLOUR_WEIGHTS_PERCEPTUAL, ColourWeights, Format, Params};
 
 /// Bytes of a block, and pixels along its side.
 const BLOCK: (u64, u32) = (16, 4);
@@ -15,7 +13,7 @@ const BLOCK: (u64, u32) = (16, 4);
 pub(crate) enum Channels {
     /// Colours over alpha: green counts most, and what is transparent least.
     Colors,
-    /// Numbers that are each as good as the others, whatever the fourth is.
+    /// Numbers that have nothing to do with each other, of which the fourth is kept best and the second next.
     Numbers,
 }
 
@@ -35,7 +33,7 @@ pub(crate) fn compressed_bytes(side: u32) -> u64 {
 pub(crate) fn compress(levels: &[[u8; 4]], side: u32, channels: Channels) -> Vec<u8> {
     let weights: ColourWeights = match channels {
         Channels::Colors => COLOUR_WEIGHTS_PERCEPTUAL,
-        Channels::Numbers => COLOUR_WEIGHTS_UNIFORM,
+        Channels::Numbers => [0.5, 1.0, 0.5],
     };
     let params = Params {
         algorithm: Algorithm::RangeFit,

@@ -26,6 +26,7 @@ struct Shared {
     normal: Handle<Image>,
     octagons: Handle<ShaderBuffer>,
     bounds: Aabb,
+    compressed: bool,
     materials: HashMap<CrownSettings, Handle<SlicedCrownMaterial>>,
 }
 
@@ -56,32 +57,32 @@ impl CrownAssets<'_> {
         is_new_device || self.compression.is_changed()
     }
 
-    fn images(&self, slicing: &Slicing) -> [Image; 2] {
+    fn compresses(&self, slicing: &Slicing) -> bool {
+        let pixels = slicing.shape().pixels;
         let device = self.device.as_ref();
-        let compressed = device.is_some_and(|device| {
-            let pixels = slicing.shape().pixels;
-            self.compression.applies(pixels, device.features())
-        });
-        images(slicing, compressed)
+        device.is_some_and(|device| self.compression.applies(pixels, device.features()))
     }
 }
 
 impl Shared {
     fn new(slicing: &Slicing, assets: &mut CrownAssets) -> Self {
-        let [color, normal] = assets.images(slicing);
+        let compressed = assets.compresses(slicing);
+        let [color, normal] = images(slicing, compressed);
         Self {
             mesh: assets.meshes.add(crown_mesh(slicing.shape())),
             color: assets.images.add(color),
             normal: assets.images.add(normal),
             octagons: assets.buffers.add(octagons(slicing)),
             bounds: bounds(slicing),
+            compressed,
             materials: HashMap::default(),
         }
     }
 
     /// Follows a slicing that was edited.
     fn renew(&mut self, slicing: &Slicing, wind: Vec3, assets: &mut CrownAssets) {
-        let [color, normal] = assets.images(slicing);
+        self.compressed = assets.compresses(slicing);
+        let [color, normal] = images(slicing, self.compressed);
         let is_kept = [
             assets.images.insert(self.color.id(), color).is_ok(),
             assets.images.insert(self.normal.id(), normal).is_ok(),
@@ -102,6 +103,7 @@ impl Shared {
         for (settings, material) in &self.materials {
             if let Some(mut material) = assets.materials.get_mut(material) {
                 material.crown = CrownUniform::new(slicing.shape(), settings, wind);
+                material.compressed = self.compressed;
             }
         }
     }
@@ -122,6 +124,7 @@ impl Shared {
                 settings,
                 // Until `follow_lights` says otherwise, in this very frame.
                 lighting: settings.lighting.into(),
+                compressed: self.compressed,
             })
         };
         self.materials.entry(settings).or_insert_with(make).clone()

@@ -55,6 +55,7 @@ mod loader;
 mod material;
 mod mesh;
 pub mod octagon;
+mod octahedral;
 mod orientation;
 mod pyramid;
 #[expect(

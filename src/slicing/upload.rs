@@ -8,6 +8,7 @@ use bevy::render::render_resource::{Extent3d, TextureFormat};
 use bevy::render::storage::ShaderBuffer;
 use bevy::tasks::{ComputeTaskPool, TaskPool};
 
+use super::octahedral::folded_pixel;
 use super::slicing::Slicing;
 use crate::texture_array::texture_array;
 use crate::texture_compression::{Channels, compress};
@@ -57,6 +58,7 @@ fn data(slicing: &Slicing, compressed: bool) -> [Vec<u8>; 2] {
             scope.spawn(async move {
                 let [color, normal] = slicing.levels(layer);
                 if compressed {
+                    let normal: Vec<_> = normal.into_iter().map(folded_pixel).collect();
                     [
                         compress(&color, side, Channels::Colors),
                         compress(&normal, side, Channels::Numbers),
