@@ -53,7 +53,11 @@ fn compressed_crowns_are_hardly_told_from_baked_ones() {
             );
             let green = [baked, compressed].map(|picture| mean(picture, 1));
             println!("{composition:?}: FLIP {flip:.5}, covered {cover:?}, green {green:.3?}");
-            assert!(flip < 0.1, "{flip}");
+            // The least error of slicings against their meshes, 0.07 (docs/slicing.md): this one is hidden by it.
+            assert!(flip < 0.07, "{flip}");
+            // Errors of single pixels go both ways.
+            assert!((green[0] - green[1]).abs() < 1.0, "{green:?}");
+            assert!(cover[0].abs_diff(cover[1]) * 20 <= cover[0], "{cover:?}");
         }
     }
 }
