@@ -80,7 +80,7 @@ pub fn time(lab: &Lab) -> Result<Chart, String> {
     let mut series =
         ["texels", "full meshes"].map(|name| Series::scatter(name, Vec::<Point>::new()));
     let (mut adapter, mut clock) = (String::new(), Clock::Frames);
-    for scene in SCENES {
+    for scene in SCENES.into_iter().filter(|scene| lab.shows(*scene)) {
         let (mut stand, full) = open(lab, scene)?;
         let shot = lab.shot(scene, 1.0);
         stand.photograph(&shot);
@@ -128,7 +128,7 @@ pub fn memory(lab: &Lab) -> Result<Chart, String> {
     let mut series =
         ["texels", "full meshes"].map(|name| Series::scatter(name, Vec::<Point>::new()));
     let mut adapter = String::new();
-    for scene in SCENES {
+    for scene in SCENES.into_iter().filter(|scene| lab.shows(*scene)) {
         let (mut stand, full) = open(lab, scene)?;
         adapter = stand.adapter();
         let settings = TexelSettings::default();

@@ -13,6 +13,8 @@ pub struct Lab {
     pub quick: bool,
     /// Size of the pictures.
     pub size: UVec2,
+    /// The only scene that is asked for, if one is.
+    pub scene: Option<TexelScene>,
     /// Folder for the pictures that are measured, if they are kept.
     pub pictures: Option<PathBuf>,
 }
@@ -28,6 +30,11 @@ impl Lab {
             .map_err(|error| format!("{}: {error}", folder.display()))?;
         image::save_buffer(&path, rgb, size.x, size.y, image::ColorType::Rgb8)
             .map_err(|error| format!("{}: {error}", path.display()))
+    }
+
+    /// Whether a scene is asked for.
+    pub fn shows(&self, scene: TexelScene) -> bool {
+        self.scene.is_none_or(|only| only == scene)
     }
 
     /// A scene, covered.

@@ -23,6 +23,7 @@ mod whole;
 use std::path::PathBuf;
 
 use bevy_verdure::lab::charts::Chart;
+use bevy_verdure::lab::texel_scenes::TexelScene;
 use bevy_verdure::lab::{ChartArgs, Size, parse_size};
 use clap::Parser;
 
@@ -39,6 +40,9 @@ struct Args {
     /// Size of the pictures.
     #[arg(long, default_value = "512x384", value_parser = parse_size)]
     size: Size,
+    /// Of the charts of several scenes, this one alone.
+    #[arg(long, value_enum)]
+    scene: Option<TexelScene>,
     /// Folder for the pictures that are measured, to look at.
     #[arg(long)]
     pictures: Option<PathBuf>,
@@ -66,6 +70,7 @@ fn main() -> Result<(), String> {
     let lab = Lab {
         quick: args.quick,
         size: args.size,
+        scene: args.scene,
         pictures: args.pictures,
     };
     for (name, chart) in EXPERIMENTS {

@@ -39,7 +39,7 @@ impl Default for BakeSettings {
             orientations: Orientations::default(),
             vertical: true,
             levels: vec![5, 3, 1],
-            switches: vec![10.0, 25.0],
+            switches: vec![8.0, 20.0],
             pixels: 256,
             samples: 4,
             correction: 0.5,

@@ -69,6 +69,9 @@ struct Varying {
 #endif
 }
 
+// The leaves next to one another that lie at one depth each in a shadow map, along the side of a slice; a power of two.
+const LEAVES: f32 = 64.0;
+
 fn world_from_local(instance_index: u32) -> mat3x3<f32> {
     let m = mesh[instance_index].world_from_local;
     return transpose(mat3x3(m[0].xyz, m[1].xyz, m[2].xyz));
@@ -205,8 +208,10 @@ fn place_corner(in: Corner) -> Varying {
 #endif
 #ifdef CROWN_LIGHT_VIEW
     let width = max(size.x, size.y) * metre(in.instance_index) * pixels_per_metre();
-    out.grid = cells(1.0 / width);
-    out.mip = u32(max(log2(f32(crown.pixels) / out.grid), 0.0));
+    let across = cells(1.0 / width);
+    out.mip = u32(max(log2(f32(crown.pixels) / across), 0.0));
+    // Lots of whole leaves, not of pixels: what shades is as large as leaves are, or the crown would look strewn with salt.
+    out.grid = min(across, LEAVES);
     let next = f32(select(slice.index, count - 1u - slice.index, faces));
     out.share = 1.0 - 2.0 * vec2(next, next + 1.0) / f32(count);
     // Half the way of light through an ellipsoid.
