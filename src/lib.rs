@@ -31,6 +31,7 @@ pub mod skeleton;
 pub mod slicing;
 pub mod texel;
 mod texture_array;
+mod texture_compression;
 pub mod wind;
 
 use bevy::app::PluginGroupBuilder;
@@ -51,7 +52,7 @@ pub mod prelude {
     };
     pub use crate::slicing::{
         BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
-        Orientations, SliceOrder, SlicedCrown, Slicing, bake,
+        Orientations, SliceOrder, SlicedCrown, Slicing, SlicingCompression, bake,
     };
     pub use crate::texel::{
         LiveTexels, TexelCycle, TexelHeights, TexelQuality, TexelSettings, TexelSurface,

@@ -94,6 +94,7 @@ fn run(args: &Args) -> Result<(), String> {
     })
     .map_err(|error| error.to_string())?;
     println!("baked in {:.2} s", start.elapsed().as_secs_f64());
+    let mebibytes = |bytes: u64| bytes as f64 / f64::from(1 << 20);
     let stem = args
         .model
         .as_deref()
@@ -101,11 +102,12 @@ fn run(args: &Args) -> Result<(), String> {
         .unwrap_or("broadleaf");
     let saved = save_slicing(&slicing, &args.out, args.name.as_deref().unwrap_or(stem))?;
     println!(
-        "{}\n{} files, {:.2} MiB on disk, {:.2} MiB on the GPU",
+        "{}\n{} files, {:.2} MiB on disk, {:.2} MiB on the GPU, {:.2} MiB compressed",
         saved.files[0].display(),
         saved.files.len(),
-        saved.bytes as f64 / f64::from(1 << 20),
-        slicing.gpu_bytes() as f64 / f64::from(1 << 20),
+        mebibytes(saved.bytes),
+        mebibytes(slicing.gpu_bytes(false)),
+        mebibytes(slicing.gpu_bytes(true)),
     );
     Ok(())
 }

@@ -31,7 +31,7 @@ pub fn shot(lab: &Lab, distance: f32, azimuth: f32, elevation: f32) -> Shot {
 }
 
 /// The mesh, supersampled.
-fn reference(lab: &mut Lab, shot: &Shot) -> Vec<u8> {
+pub fn reference(lab: &mut Lab, shot: &Shot) -> Vec<u8> {
     let fine = Shot {
         size: shot.size * SAMPLES,
         ..*shot

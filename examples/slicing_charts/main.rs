@@ -7,6 +7,7 @@
 
 mod accuracy;
 mod brightness;
+mod compression;
 mod cost;
 mod discrepancy;
 mod figures;
@@ -49,7 +50,7 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 16] = [
+const EXPERIMENTS: [Experiment; 17] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
     ("slicing_switches", switches::error_against_cost),
@@ -59,6 +60,7 @@ const EXPERIMENTS: [Experiment; 16] = [
     ("slicing_slices", accuracy::against_slices),
     ("slicing_orientations", accuracy::against_orientations),
     ("slicing_pixels", accuracy::against_pixels),
+    ("slicing_compression", compression::against_distance),
     ("slicing_elevation", accuracy::against_elevation),
     ("slicing_discrepancy", discrepancy::against_angle),
     ("slicing_brightness", brightness::against_background),

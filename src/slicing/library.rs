@@ -7,9 +7,11 @@ use bevy::image::Image;
 use bevy::mesh::MeshTag;
 use bevy::platform::collections::{HashMap, HashSet};
 use bevy::prelude::*;
+use bevy::render::renderer::RenderDevice;
 use bevy::render::storage::ShaderBuffer;
 
 use super::component::{CrownSettings, CrownTint, SlicedCrown};
+use super::compression::SlicingCompression;
 use super::material::{CrownUniform, SlicedCrownMaterial};
 use super::mesh::crown_mesh;
 use super::slicing::Slicing;
@@ -24,6 +26,7 @@ struct Shared {
     normal: Handle<Image>,
     octagons: Handle<ShaderBuffer>,
     bounds: Aabb,
+    compressed: bool,
     materials: HashMap<CrownSettings, Handle<SlicedCrownMaterial>>,
 }
 
@@ -33,31 +36,53 @@ pub(crate) struct CrownLibrary {
     shared: HashMap<AssetId<Slicing>, Shared>,
 }
 
-/// The assets that slicings are turned into.
+/// The assets that slicings are turned into, and what they are turned into them for.
 #[derive(bevy::ecs::system::SystemParam)]
 pub(crate) struct CrownAssets<'w> {
     meshes: ResMut<'w, Assets<Mesh>>,
     images: ResMut<'w, Assets<Image>>,
     buffers: ResMut<'w, Assets<ShaderBuffer>>,
     materials: ResMut<'w, Assets<SlicedCrownMaterial>>,
+    compression: Res<'w, SlicingCompression>,
+    device: Option<Res<'w, RenderDevice>>,
+}
+
+impl CrownAssets<'_> {
+    /// Whether all images are to be made anew: another device has nothing of what was there.
+    fn are_outdated(&self) -> bool {
+        let is_new_device = self
+            .device
+            .as_ref()
+            .is_some_and(|device| device.is_changed());
+        is_new_device || self.compression.is_changed()
+    }
+
+    fn compresses(&self, slicing: &Slicing) -> bool {
+        let pixels = slicing.shape().pixels;
+        let device = self.device.as_ref();
+        device.is_some_and(|device| self.compression.applies(pixels, device.features()))
+    }
 }
 
 impl Shared {
     fn new(slicing: &Slicing, assets: &mut CrownAssets) -> Self {
-        let [color, normal] = images(slicing);
+        let compressed = assets.compresses(slicing);
+        let [color, normal] = images(slicing, compressed);
         Self {
             mesh: assets.meshes.add(crown_mesh(slicing.shape())),
             color: assets.images.add(color),
             normal: assets.images.add(normal),
             octagons: assets.buffers.add(octagons(slicing)),
             bounds: bounds(slicing),
+            compressed,
             materials: HashMap::default(),
         }
     }
 
     /// Follows a slicing that was edited.
     fn renew(&mut self, slicing: &Slicing, wind: Vec3, assets: &mut CrownAssets) {
-        let [color, normal] = images(slicing);
+        self.compressed = assets.compresses(slicing);
+        let [color, normal] = images(slicing, self.compressed);
         let is_kept = [
             assets.images.insert(self.color.id(), color).is_ok(),
             assets.images.insert(self.normal.id(), normal).is_ok(),
@@ -78,6 +103,7 @@ impl Shared {
         for (settings, material) in &self.materials {
             if let Some(mut material) = assets.materials.get_mut(material) {
                 material.crown = CrownUniform::new(slicing.shape(), settings, wind);
+                material.compressed = self.compressed;
             }
         }
     }
@@ -98,6 +124,7 @@ impl Shared {
                 settings,
                 // Until `follow_lights` says otherwise, in this very frame.
                 lighting: settings.lighting.into(),
+                compressed: self.compressed,
             })
         };
         self.materials.entry(settings).or_insert_with(make).clone()
@@ -140,15 +167,14 @@ pub(crate) fn attach(
     }
 }
 
-/// Follows slicings that were edited or reloaded, and a device that has taken a lost one's place, which has nothing of
-/// what was there.
+/// Follows slicings that were edited or reloaded, a device that has taken a lost one's place, and the choice of
+/// compression.
 pub(crate) fn follow_slicings(
     mut events: MessageReader<AssetEvent<Slicing>>,
     mut library: ResMut<CrownLibrary>,
     mut assets: CrownAssets,
     slicings: Res<Assets<Slicing>>,
     wind: Res<Wind>,
-    device: Option<Res<bevy::render::renderer::RenderDevice>>,
 ) {
     let mut edited: HashSet<AssetId<Slicing>> = HashSet::default();
     for event in events.read() {
@@ -156,8 +182,7 @@ pub(crate) fn follow_slicings(
             edited.insert(*id);
         }
     }
-    let is_new_device = device.is_some_and(|device| device.is_changed());
-    if is_new_device {
+    if assets.are_outdated() {
         edited.extend(library.shared.keys());
     }
     for id in &edited {

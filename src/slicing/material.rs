@@ -104,6 +104,8 @@ pub struct SlicedCrownMaterial {
     pub(crate) settings: CrownSettings,
     /// What lights the crowns in this scene.
     pub(crate) lighting: SceneLighting,
+    /// Whether the textures are compressed, so that normals are folded to an octahedron's square.
+    pub(crate) compressed: bool,
 }
 
 /// What tells pipelines apart.
@@ -113,6 +115,7 @@ pub struct CrownKey {
     order: SliceOrder,
     lighting: SceneLighting,
     frames: bool,
+    compressed: bool,
 }
 
 impl From<&SlicedCrownMaterial> for CrownKey {
@@ -123,6 +126,7 @@ impl From<&SlicedCrownMaterial> for CrownKey {
             order: settings.order,
             lighting: material.lighting,
             frames: settings.frames,
+            compressed: material.compressed,
         }
     }
 }
@@ -178,6 +182,7 @@ impl Material for SlicedCrownMaterial {
             (lighting == PlantLighting::Simple, "CROWN_SIMPLE_LIGHT"),
             (crown.lighting.more_suns, "MORE_SUNS"),
             (crown.frames, "CROWN_FRAMES"),
+            (crown.compressed, "CROWN_COMPRESSED"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
         ]);
         define(descriptor, defs);

@@ -10,8 +10,8 @@
 //!    (`octagon.rs`), with mip levels that keep coverage (`pyramid.rs`). It is kept as a `*.slicing.ron` and its pictures
 //!    (`document/`), which the asset server loads (`loader.rs`).
 //! 2. [`SlicedCrown`] on an entity draws it (`component.rs`). `library.rs` keeps what is on the GPU
-//!    (`upload.rs`) for the slicings in use, `material.rs`
-//!    draws them in Bevy's own phases, with a mesh that holds nothing but numbers of slices (`mesh.rs`).
+//!    (`upload.rs`) for the slicings in use, compressed where the device can ([`SlicingCompression`]); `material.rs` draws
+//!    them in Bevy's own phases, with a mesh that holds nothing but numbers of slices (`mesh.rs`).
 //! 3. For each view, the vertex shader picks the slicings of least discrepancy angle from the eye's position, their
 //!    opacities and the order of their slices (`blend/`, `shaders/blend.wgsl`), and places the slices
 //!    (`shaders/place.wgsl`). The fragment shaders light them by their baked normals, with the scene's lights, shadow maps
@@ -39,13 +39,14 @@
 //!
 //! # What it does not do
 //! Crowns that intersect are not sorted slice by slice. One discrepancy angle holds for a whole crown, so that within a
-//! few metres slices show where no mesh takes over. Textures are not compressed on the GPU. Storage buffers in the vertex stage are required, so
+//! few metres slices show where no mesh takes over. Storage buffers in the vertex stage are required, so
 //! WebGL 2 is out.
 
 pub mod bake;
 pub mod blend;
 mod close_up;
 mod component;
+mod compression;
 mod document;
 mod error;
 mod library;
@@ -54,6 +55,7 @@ mod loader;
 mod material;
 mod mesh;
 pub mod octagon;
+mod octahedral;
 mod orientation;
 mod pyramid;
 #[expect(
@@ -80,6 +82,7 @@ pub use bake::{
 pub use blend::{DrawnSlice, SliceOrder};
 pub use close_up::close_up;
 pub use component::{Composition, CrownSettings, CrownTint, SlicedCrown};
+pub use compression::SlicingCompression;
 pub use document::{Picture, SlicingDocument, read_picture};
 pub use error::{SlicingError, SlicingFileError, SlicingFileErrorKind};
 pub use limits::{
@@ -118,6 +121,8 @@ impl Plugin for SlicingPlugin {
             .register_type::<SlicedCrown>()
             .register_type::<CrownSettings>()
             .register_type::<CrownTint>()
+            .register_type::<SlicingCompression>()
+            .init_resource::<SlicingCompression>()
             .init_resource::<library::CrownLibrary>()
             .add_observer(library::uproot)
             .add_systems(

@@ -11,6 +11,7 @@ use super::limits::{
 use super::octagon::{Octagon, octagon};
 use super::orientation::Orientation;
 use super::pyramid::{color_levels, normal_levels};
+use crate::texture_compression::{compressed_bytes, has_whole_blocks};
 
 /// Pixels that a trimmed slice has to spare round its opaque ones, for filtering.
 const MARGIN: f32 = 2.0;
@@ -201,27 +202,37 @@ impl Slicing {
         &self.normal[layer * size..(layer + 1) * size]
     }
 
-    /// Bytes on the GPU, mip levels included.
-    pub fn gpu_bytes(&self) -> u64 {
-        let levels = self.shape.pixels.ilog2() + 1;
-        let layer: u64 = (0..levels)
-            .map(|level| u64::from(self.shape.pixels >> level).pow(2))
-            .sum();
-        2 * 4 * layer * self.shape.layers() as u64
+    /// Bytes on the GPU, mip levels included: as they were baked, or `compressed` (BC3;
+    /// [`SlicingCompression`](super::SlicingCompression) says where). Slices of less than 4 pixels never are.
+    pub fn gpu_bytes(&self, compressed: bool) -> u64 {
+        let side = self.shape.pixels;
+        let layer: u64 = if compressed && has_whole_blocks(side) {
+            compressed_bytes(side)
+        } else {
+            (0..=side.ilog2())
+                .map(|level| 4 * u64::from(side >> level).pow(2))
+                .sum()
+        };
+        2 * layer * self.shape.layers() as u64
+    }
+
+    /// Colours and normals of a layer with their mip levels, the finest first.
+    pub(crate) fn levels(&self, layer: usize) -> [Vec<[u8; 4]>; 2] {
+        let (size, color) = (self.shape.pixels, self.color(layer));
+        [
+            color_levels(color, size),
+            normal_levels(self.normal(layer), color, size),
+        ]
     }
 
     /// The bytes of both texture arrays, layer by layer with their mip levels.
+    #[cfg(feature = "lab")]
     pub(crate) fn texture_bytes(&self) -> [Vec<u8>; 2] {
-        let size = self.shape.pixels;
         let (mut colors, mut normals) = (Vec::new(), Vec::new());
         for layer in 0..self.shape.layers() {
-            let color = self.color(layer);
-            colors.extend(color_levels(color, size).into_iter().flatten());
-            normals.extend(
-                normal_levels(self.normal(layer), color, size)
-                    .into_iter()
-                    .flatten(),
-            );
+            let [color, normal] = self.levels(layer);
+            colors.extend(color.into_iter().flatten());
+            normals.extend(normal.into_iter().flatten());
         }
         [colors, normals]
     }

@@ -7,6 +7,11 @@ use super::slicing::Slicing;
 
 /// A few leaves, baked as small as can be.
 pub(super) fn tiny() -> Slicing {
+    leaves(16)
+}
+
+/// The same with so many pixels a slice.
+pub(super) fn leaves(pixels: u32) -> Slicing {
     let mut mesh = CrownMesh::default();
     mesh.add_material(CrownMaterial::default());
     for i in 0..9 {
@@ -34,7 +39,7 @@ pub(super) fn tiny() -> Slicing {
         levels: vec![2, 1],
         switches: vec![10.0],
         samples: 2,
-        pixels: 16,
+        pixels,
         ..BakeSettings::default()
     };
     bake(&mesh, &settings).expect("the leaves can be baked")

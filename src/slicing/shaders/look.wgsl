@@ -40,16 +40,32 @@ fn slice_color(in: Varying) -> vec4<f32> {
 }
 
 #ifndef CROWN_LIGHT_VIEW
+#ifdef CROWN_COMPRESSED
+// A direction from an octahedron's square, -1 to 1, as octahedral.rs folds it; of any length.
+fn unfold(folded: vec2<f32>) -> vec3<f32> {
+    let y = 1.0 - abs(folded.x) - abs(folded.y);
+    let sides = select(vec2(-1.0), vec2(1.0), folded >= vec2(0.0));
+    let over = folded - max(-y, 0.0) * sides;
+    return vec3(over.x, y, over.y);
+}
+#endif
+
 fn slice_facing(in: Varying) -> Facing {
     // One pixel of the nearest level: opacity smooths over what filters would, at a fifth of their cost.
     let mip = u32(in.lod + 0.5);
     let size = crown.pixels >> mip;
     let pixel = min(vec2<u32>(in.uv * f32(size)), vec2(size - 1u));
     let baked = textureLoad(normal_texture, pixel, in.layer, mip);
+#ifdef CROWN_COMPRESSED
+    let occlusion = baked.r;
+    var n = unfold(baked.ag * 2.0 - 1.0);
+#else
+    let occlusion = baked.a;
     // The least length keeps a normal of nothing from becoming none.
     var n = baked.xyz * 2.0 - (1.0 - 1e-6);
+#endif
     // From behind, the other side of each leaf is seen.
     n -= 2.0 * max(dot(n, in.back), 0.0) * in.back;
-    return Facing(normalize(mat3x3(in.turn_x, in.turn_y, in.turn_z) * n), baked.a);
+    return Facing(normalize(mat3x3(in.turn_x, in.turn_y, in.turn_z) * n), occlusion);
 }
 #endif

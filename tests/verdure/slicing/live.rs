@@ -47,6 +47,25 @@ fn tints_settings_and_wind_follow_the_components() {
 }
 
 #[test]
+fn a_slicing_edited_in_its_old_shape_shows_whole() {
+    let look = shot(eye(75.0, 10.0, 16.0));
+    let (mut studio, crown) = studio(UNLIT);
+    let plain = studio.photograph(&look, Color::BLACK);
+    let crown = studio.world().entity(crown).get::<SlicedCrown>();
+    let id = crown.expect("a crown").0.id();
+    let inserted = studio
+        .world()
+        .resource_mut::<Assets<Slicing>>()
+        .insert(id, CROWN.clone());
+    assert!(inserted.is_ok());
+    for _ in 0..2 {
+        studio.headless.step();
+    }
+    let seen = studio.photograph(&look, Color::BLACK);
+    assert_eq!(seen.rgb_bytes(), plain.rgb_bytes());
+}
+
+#[test]
 fn an_edited_slicing_shows_and_a_crown_no_more_is_gone() {
     let look = shot(eye(75.0, 10.0, 16.0));
     let (mut studio, crown) = studio(UNLIT);

@@ -3,6 +3,7 @@
 mod agreement;
 mod brightness;
 mod close_up;
+mod compression;
 mod draws;
 mod files;
 mod intersecting;
