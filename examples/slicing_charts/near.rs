@@ -59,19 +59,23 @@ pub fn inside(lab: &mut Lab) -> Result<Chart, String> {
         }
     }
     let errors = errors_by_shots(lab, &groups, &ways);
-    let mut series = Vec::new();
-    for ((name, _), errors) in ways.iter().zip(&errors) {
-        for (angle, errors) in ANGLES.iter().zip(errors.chunks(radii.len())) {
-            let points = radii.iter().map(|r| f64::from(*r)).zip(errors.to_vec());
-            series.push(Series::line(format!("{name}, {angle} degrees"), points));
-        }
-    }
+    let all = ways.iter().zip(&errors);
+    let series = all.flat_map(|((name, _), errors)| by_angle(name, radii, errors));
     Ok(Chart {
         title: "Error from outside a crown to its centre, by discrepancy angle".into(),
         subtitle: lab.adapter.clone(),
         x: Axis::linear("distance from the centroid (radii)"),
         y: Axis::linear("mean FLIP against the supersampled mesh"),
-        series,
+        series: series.collect(),
+    })
+}
+
+/// A curve over `places` for each discrepancy angle; `values` are those of one angle after the other.
+fn by_angle(name: &str, places: &[f32], values: &[f64]) -> impl Iterator<Item = Series> {
+    let curves = ANGLES.iter().zip(values.chunks(places.len()));
+    curves.map(move |(angle, values)| {
+        let points = places.iter().map(|at| f64::from(*at)).zip(values.to_vec());
+        Series::line(format!("{name}, {angle} degrees"), points)
     })
 }
 
@@ -112,10 +116,7 @@ pub fn perspective(lab: &mut Lab) -> Result<Chart, String> {
     for ((name, _), errors) in ways.iter().zip(&errors) {
         let shares: Vec<_> = errors.iter().zip(&without).map(|(e, w)| e / w).collect();
         println!("{name}, share: {shares:.3?}");
-        for (angle, shares) in ANGLES.iter().zip(shares.chunks(fields.len())) {
-            let points = fields.iter().map(|f| f64::from(*f)).zip(shares.to_vec());
-            series.push(Series::line(format!("{name}, {angle} degrees"), points));
-        }
+        series.extend(by_angle(name, fields, &shares));
     }
     Ok(Chart {
         title: "Error by the field of view that a crown fills, and discrepancy angle".into(),

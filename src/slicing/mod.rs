@@ -10,13 +10,13 @@
 //!    (`octagon.rs`), with mip levels that keep coverage (`pyramid.rs`). It is kept as a `*.slicing.ron` and its pictures
 //!    (`document/`), which the asset server loads (`loader.rs`).
 //! 2. [`SlicedCrown`] on an entity draws it (`component.rs`). `library.rs` keeps what is on the GPU
-//!    (`upload.rs`) for the slicings in use, compressed where the device can ([`SlicingCompression`]); `material.rs` draws
+//!    (`upload.rs`) for the slicings in use, compressed if that is asked for ([`SlicingCompression`]); `material.rs` draws
 //!    them in Bevy's own phases, with a mesh that holds nothing but numbers of slices (`mesh.rs`).
 //! 3. For each view, the vertex shader picks the slicings of least discrepancy angle from the eye's position, their
 //!    opacities and the order of their slices (`blend/`, `shaders/blend.wgsl`), and places the slices
 //!    (`shaders/place.wgsl`). The fragment shaders light them by their baked normals, with the scene's lights, shadow maps
-//!    and fog (`shaders/forward.wgsl`), in a way that suits what is there ([`PlantLighting`](crate::lighting::PlantLighting)), or let them
-//!    cast shadows (`shaders/prepass.wgsl`).
+//!    and fog (`shaders/forward.wgsl`), in a way that suits what is there
+//!    ([`PlantLighting`](crate::lighting::PlantLighting)), or let them cast shadows (`shaders/prepass.wgsl`).
 //!
 //! # How crowns are sorted
 //! Blended crowns are items of Bevy's transparent phase rather than of a pass of their own: so they are in right order
@@ -108,6 +108,7 @@ impl Plugin for SlicingPlugin {
         LightingPlugin::add_to(app);
         load_shader_library!(app, "shaders/types.wgsl");
         load_shader_library!(app, "shaders/blend.wgsl");
+        load_shader_library!(app, "shaders/cast.wgsl");
         load_shader_library!(app, "shaders/lots.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/look.wgsl");

@@ -1,6 +1,7 @@
 //! The crate as a user and a GPU see it, against references: one binary, for each links all of Bevy.
 
 mod agreement;
+mod compute;
 mod features;
 mod geometry;
 mod golden;

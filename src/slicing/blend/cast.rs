@@ -1,6 +1,6 @@
 //! What casts shadows: one slicing that faces the light, whose leaves lie at depths by chance.
 
-use bevy::math::Vec3;
+use bevy::math::{Vec2, Vec3};
 
 use super::{DrawnSlice, SliceOrder};
 use crate::slicing::orientation::Orientation;
@@ -57,8 +57,8 @@ pub fn facing(o: &Orientation, direction: Vec3, place: Vec3) -> Vec3 {
         return flat;
     }
     // The slice's half-width along the tilt, of its inscribed ellipse.
-    let along = Vec3::new(tilt.dot(o.right) / size.x, tilt.dot(o.up) / size.y, 0.0).length() / sine;
-    let wider = (1.0 + (size.z * along * sine / cosine.abs().max(0.02)).powi(2)).sqrt();
+    let along = Vec2::new(tilt.dot(o.right) / size.x, tilt.dot(o.up) / size.y).length() / sine;
+    let wider = Vec2::new(1.0, size.z * along * sine / cosine.abs().max(0.02)).length();
     let axis = (o.direction - direction * cosine).normalize();
     flat + axis * (place.dot(axis) * (wider - 1.0))
 }

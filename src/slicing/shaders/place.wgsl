@@ -7,7 +7,8 @@
 #import bevy_render::globals::Globals
 #import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
 #import bevy_verdure::slicing::types::{crown, octagons, first_layer}
-#import bevy_verdure::slicing::blend::{FOCAL, cast_slice, drawn_slice, facing}
+#import bevy_verdure::slicing::blend::{FOCAL, cast_slice, drawn_slice}
+#import bevy_verdure::slicing::cast::facing
 #import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
 
@@ -23,6 +24,9 @@
 
 // How far slices near to the eye flutter besides, as a share of the crown's sway.
 const FLUTTER: f32 = 0.25;
+
+// The leaves next to one another that lie at one depth each in a shadow map, along the side of a slice; a power of two.
+const LEAVES: f32 = 64.0;
 
 struct Corner {
     @builtin(instance_index) instance_index: u32,
@@ -68,9 +72,6 @@ struct Varying {
     @location(11) @interpolate(flat) lod: f32,
 #endif
 }
-
-// The leaves next to one another that lie at one depth each in a shadow map, along the side of a slice; a power of two.
-const LEAVES: f32 = 64.0;
 
 fn world_from_local(instance_index: u32) -> mat3x3<f32> {
     let m = mesh[instance_index].world_from_local;

@@ -2,7 +2,7 @@
 
 #import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
 #import bevy_pbr::mesh_view_bindings::view
-#import bevy_verdure::slicing::blend::first_leaf
+#import bevy_verdure::slicing::cast::first_leaf
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
 #import bevy_verdure::slicing::lots::{cells, footprint, lot_of}

@@ -256,7 +256,8 @@ impl TexelLibrary {
     ) {
         for (keys, handles) in &self.materials {
             let lighting = lights.lighting(keys.lighting);
-            for handle in handles {
+            // Depth has no light.
+            for handle in &handles[..3] {
                 // Only what is written to counts as changed.
                 if let Some(mut material) = materials.get_mut(handle)
                     && material.lighting != lighting

@@ -12,6 +12,7 @@ mod live;
 mod near;
 mod passes;
 mod steady;
+mod twins;
 
 use std::sync::LazyLock;
 
@@ -128,8 +129,13 @@ fn mean(picture: &Pixels, channel: usize) -> f64 {
     all.sum::<f64>() / f64::from(SIZE.x * SIZE.y)
 }
 
-/// A sun from above, with shadows.
+/// A sun from above, with shadows as far as the tests look.
 fn sun(studio: &mut Studio) {
+    sun_to(studio, 40.0);
+}
+
+/// The same, with shadows up to so many metres from the eye.
+fn sun_to(studio: &mut Studio, reach: f32) {
     studio.world().spawn((
         DirectionalLight {
             illuminance: 5_000.0,
@@ -138,7 +144,7 @@ fn sun(studio: &mut Studio) {
         },
         CascadeShadowConfigBuilder {
             num_cascades: 1,
-            maximum_distance: 40.0,
+            maximum_distance: reach,
             ..default()
         }
         .build(),

@@ -5,7 +5,7 @@ use bevy_verdure::lab::{Pixels, Studio, mean_flip};
 use bevy_verdure::prelude::*;
 
 use super::passes::{floor, mean};
-use super::{SIZE, Square, cover, shot};
+use super::{SIZE, cover_default, shot};
 
 fn picture(studio: &mut Studio, surface: Entity, lighting: PlantLighting) -> Pixels {
     let settings = TexelSettings {
@@ -21,12 +21,7 @@ fn picture(studio: &mut Studio, surface: Entity, lighting: PlantLighting) -> Pix
 fn simple_light_looks_like_full_light_and_gives_way_to_it() {
     let mut studio = Studio::default();
     floor(&mut studio);
-    let surface = cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        TexelSettings::default(),
-    );
+    let surface = cover_default(&mut studio, TexelSettings::default());
     let sun = DirectionalLight {
         shadow_maps_enabled: true,
         ..default()

@@ -115,20 +115,21 @@ fn cover(
 ) -> Entity {
     let world = studio.world();
     let mesh = world.resource_mut::<Assets<Mesh>>().add(square.mesh());
+    let surface = lollies(world, 1.0);
+    world.spawn((Mesh3d(mesh), surface, settings, place)).id()
+}
+
+/// Covers the default square where it is.
+fn cover_default(studio: &mut Studio, settings: TexelSettings) -> Entity {
+    cover(studio, &Square::default(), Transform::IDENTITY, settings)
+}
+
+/// A cover of the tests' volume.
+fn lollies(world: &mut World, thickness: f32) -> TexelSurface {
     let volume = world
         .resource_mut::<Assets<TexelVolume>>()
         .add(LOLLY.clone());
-    world
-        .spawn((
-            Mesh3d(mesh),
-            TexelSurface {
-                volume,
-                thickness: 1.0,
-            },
-            settings,
-            place,
-        ))
-        .id()
+    TexelSurface { volume, thickness }
 }
 
 /// A shot of the unit cube over the default square.

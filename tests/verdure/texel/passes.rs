@@ -8,7 +8,7 @@ use bevy_verdure::lab::{Pixels, Studio};
 use bevy_verdure::prelude::*;
 use bevy_verdure::texel::TexelSlices;
 
-use super::{BACKGROUND, SIZE, Square, cover, is_background, shot, unlit};
+use super::{BACKGROUND, SIZE, Square, cover_default, is_background, shot, unlit};
 
 const EYE: Vec3 = Vec3::new(1.9, 2.3, 1.2);
 
@@ -21,12 +21,7 @@ fn covered(picture: &Pixels) -> usize {
 #[test]
 fn the_prepass_leaves_the_picture_as_it_is() {
     let mut studio = Studio::default();
-    cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        unlit(),
-    );
+    cover_default(&mut studio, unlit());
     let without = studio.photograph(&shot(EYE), BACKGROUND);
     let camera = studio.camera();
     studio
@@ -85,12 +80,7 @@ fn texels_cast_shadows_on_the_ground_and_do_not_darken_themselves() {
     let mut studio = Studio::default();
     sun(&mut studio);
     floor(&mut studio);
-    let surface = cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        TexelSettings::default(),
-    );
+    let surface = cover_default(&mut studio, TexelSettings::default());
     let from_above = shot(EYE);
     let with = studio.photograph(&from_above, BACKGROUND);
     studio.world().entity_mut(surface).insert(NotShadowReceiver);
@@ -138,12 +128,7 @@ fn texels_cast_shadows_on_the_ground_and_do_not_darken_themselves() {
 #[test]
 fn slices_are_where_their_surface_is_seen_and_go_with_it() {
     let mut studio = Studio::default();
-    let surface = cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        unlit(),
-    );
+    let surface = cover_default(&mut studio, unlit());
     let seen = |studio: &mut Studio| {
         studio.headless.step();
         covered(&studio.photograph(&shot(EYE), BACKGROUND))
@@ -193,12 +178,7 @@ fn meshes_that_can_carry_no_texels_are_left_alone() {
     not_finite.positions[2] = Vec3::NAN;
     let mut folded = Square::default();
     folded.heights[0] = Vec3::NEG_Y;
-    let surface = cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        unlit(),
-    );
+    let surface = cover_default(&mut studio, unlit());
     let whole = covered(&studio.photograph(&shot(EYE), BACKGROUND));
     // Triangles that share the broken vertex carry none; the other may remain.
     for (mesh, most) in [
@@ -222,12 +202,7 @@ fn with_msaa_outlines_are_smooth_and_prepasses_agree() {
     let mut studio = Studio::default();
     let camera = studio.camera();
     studio.world().entity_mut(camera).insert(Msaa::Sample4);
-    cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        unlit(),
-    );
+    cover_default(&mut studio, unlit());
     let mut without = studio.photograph(&shot(EYE), BACKGROUND);
     let mixed = |picture: &Pixels| {
         let all = (0..SIZE.y).flat_map(|y| (0..SIZE.x).map(move |x| (x, y)));

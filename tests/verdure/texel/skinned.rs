@@ -5,10 +5,9 @@ use bevy::mesh::skinning::{SkinnedMesh, SkinnedMeshInverseBindposes};
 use bevy::mesh::{Indices, PrimitiveTopology, VertexAttributeValues};
 use bevy::prelude::*;
 use bevy_verdure::lab::Studio;
-use bevy_verdure::prelude::*;
 use bevy_verdure::texel::ATTRIBUTE_HEIGHT_VECTOR;
 
-use super::{BACKGROUND, LOLLY, shot, unlit};
+use super::{BACKGROUND, lollies, shot, unlit};
 
 /// Squares of a strip along x, which is one long.
 const SQUARES: usize = 4;
@@ -66,13 +65,7 @@ const KNEE: Vec3 = Vec3::new(0.5, 0.0, 0.0);
 fn spawn(studio: &mut Studio, mesh: Mesh, place: Transform) -> Entity {
     let world = studio.world();
     let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh);
-    let volume = world
-        .resource_mut::<Assets<TexelVolume>>()
-        .add(LOLLY.clone());
-    let surface = TexelSurface {
-        volume,
-        thickness: 1.0,
-    };
+    let surface = lollies(world, 1.0);
     world.spawn((Mesh3d(mesh), surface, unlit(), place)).id()
 }
 

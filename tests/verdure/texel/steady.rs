@@ -6,18 +6,13 @@ use bevy_verdure::prelude::*;
 
 use crate::jumps::jumps;
 
-use super::{BACKGROUND, Square, cover, shot, unlit};
+use super::{BACKGROUND, cover_default, shot, unlit};
 
 /// The jumps of an eye that rises from aslant to above, half a degree a frame: past all changes of count and direction.
 fn rise(fade: bool) -> (f64, f64) {
     let mut studio = Studio::default();
     let settings = TexelSettings { fade, ..unlit() };
-    cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        settings,
-    );
+    cover_default(&mut studio, settings);
     jumps((45..125).map(|i| {
         let (sin, cos) = (10.0 + 0.5 * i as f32).to_radians().sin_cos();
         let eye = Vec3::new(0.5, 0.5, -0.5) + Vec3::new(0.4 * cos, sin, 0.9 * cos) * 3.0;

@@ -7,7 +7,7 @@ use bevy_verdure::prelude::*;
 use bevy_verdure::texel::build::{VolumeSettings, from_hypertexture};
 use bevy_verdure::texel::silent;
 
-use super::{BACKGROUND, LOLLY, Square, cover, is_background, shot, unlit};
+use super::{BACKGROUND, LOLLY, cover_default, is_background, shot, unlit};
 
 const EYE: Vec3 = Vec3::new(1.9, 2.3, 1.2);
 
@@ -27,8 +27,7 @@ fn seen(studio: &mut Studio) -> Vec<u8> {
 #[test]
 fn volumes_are_shown_by_turns() {
     let mut studio = Studio::default();
-    let place = Transform::IDENTITY;
-    let surface = cover(&mut studio, &Square::default(), place, unlit());
+    let surface = cover_default(&mut studio, unlit());
     let lolly = seen(&mut studio);
     let world = studio.world();
     let mut volumes = world.resource_mut::<Assets<TexelVolume>>();
@@ -61,8 +60,7 @@ fn volumes_are_shown_by_turns() {
 #[test]
 fn temporal_anti_aliasing_keeps_texels_where_they_are() {
     let mut studio = Studio::default();
-    let place = Transform::IDENTITY;
-    cover(&mut studio, &Square::default(), place, unlit());
+    cover_default(&mut studio, unlit());
     studio.headless.step();
     let plain = studio.photograph(&shot(EYE), BACKGROUND);
     let camera = studio.camera();

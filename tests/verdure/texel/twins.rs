@@ -1,34 +1,16 @@
 //! The shaders' formulas against those in Rust: `facet.wgsl` is run as it is.
 
-use core::time::Duration;
-
 use bevy::math::{Vec2, Vec3};
-use bevy::render::render_resource::{
-    BindGroupEntry, BindGroupLayoutEntry, BindingType, BufferBindingType, BufferDescriptor,
-    BufferInitDescriptor, BufferUsages, CommandEncoderDescriptor, ComputePassDescriptor, MapMode,
-    PipelineCompilationOptions, PipelineLayoutDescriptor, PollType, RawComputePipelineDescriptor,
-    ShaderModuleDescriptor, ShaderSource, ShaderStages,
-};
-use bevy::render::renderer::{RenderDevice, RenderQueue};
-use bevy_verdure::lab::Headless;
 use bevy_verdure::plants::Dice;
 use bevy_verdure::texel::SliceAxis;
 use bevy_verdure::texel::facet::{Facet, TexelFrame, slice_line, slice_position, slice_range};
 
-/// The shader of the method that needs no bindings, and an entry that runs it on cases.
+use crate::compute::run;
+
+/// What runs the shader on cases.
 const ENTRY: &str = r"
 @group(0) @binding(0) var<storage, read> cases: array<array<f32, 44>>;
 @group(0) @binding(1) var<storage, read_write> results: array<array<f32, 32>>;
-
-fn vector(i: u32, at: u32) -> vec3<f32> {
-    return vec3(cases[i][at], cases[i][at + 1u], cases[i][at + 2u]);
-}
-
-fn put(i: u32, at: u32, value: vec3<f32>) {
-    results[i][at] = value.x;
-    results[i][at + 1u] = value.y;
-    results[i][at + 2u] = value.z;
-}
 
 @compute @workgroup_size(64)
 fn run(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -61,19 +43,6 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
     results[i][23] = position;
 }
 ";
-
-fn source() -> String {
-    let parts = [
-        include_str!("../../../src/texel/draw/shaders/facet.wgsl"),
-        ENTRY,
-    ];
-    let lines = parts.iter().flat_map(|part| part.lines());
-    // They are in one piece here.
-    lines
-        .filter(|line| !line.starts_with('#'))
-        .collect::<Vec<_>>()
-        .join("\n")
-}
 
 /// A place on a facet, and a slice of it.
 #[derive(Clone, Debug)]
@@ -139,92 +108,14 @@ impl Case {
     }
 }
 
-fn run(cases: &[Case]) -> Vec<[f32; 32]> {
-    let mut headless = Headless::new(Duration::ZERO, |_| {});
-    headless.step();
-    let world = headless.world();
-    let device = world.resource::<RenderDevice>().clone();
-    let queue = world.resource::<RenderQueue>().clone();
-    let source = source();
-    let module = device.create_and_validate_shader_module(ShaderModuleDescriptor {
-        label: Some("texel twins"),
-        source: ShaderSource::Wgsl(source.into()),
-    });
-    let entry = |binding, read_only| BindGroupLayoutEntry {
-        binding,
-        visibility: ShaderStages::COMPUTE,
-        ty: BindingType::Buffer {
-            ty: BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let layout = device.create_bind_group_layout(None, &[entry(0, true), entry(1, false)]);
-    let pipeline_layout = device.create_pipeline_layout(&PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(&layout)],
-        immediate_size: 0,
-    });
-    let pipeline = device.create_compute_pipeline(&RawComputePipelineDescriptor {
-        label: None,
-        layout: Some(&pipeline_layout),
-        module: &module,
-        entry_point: Some("run"),
-        compilation_options: PipelineCompilationOptions::default(),
-        cache: None,
-    });
-    let floats: Vec<[f32; 44]> = cases.iter().map(Case::floats).collect();
-    let input = device.create_buffer_with_data(&BufferInitDescriptor {
-        label: None,
-        contents: bytemuck::cast_slice(&floats),
-        usage: BufferUsages::STORAGE,
-    });
-    let size = (cases.len() * 128) as u64;
-    let buffer = |usage| {
-        device.create_buffer(&BufferDescriptor {
-            label: None,
-            size,
-            usage,
-            mapped_at_creation: false,
-        })
-    };
-    let output = buffer(BufferUsages::STORAGE | BufferUsages::COPY_SRC);
-    let back = buffer(BufferUsages::MAP_READ | BufferUsages::COPY_DST);
-    let bindings = device.create_bind_group(
-        None,
-        &layout,
-        &[
-            BindGroupEntry {
-                binding: 0,
-                resource: input.as_entire_binding(),
-            },
-            BindGroupEntry {
-                binding: 1,
-                resource: output.as_entire_binding(),
-            },
-        ],
-    );
-    let mut encoder = device.create_command_encoder(&CommandEncoderDescriptor::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&ComputePassDescriptor::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, Some(&*bindings), &[]);
-        pass.dispatch_workgroups(cases.len().div_ceil(64) as u32, 1, 1);
-    }
-    encoder.copy_buffer_to_buffer(&output, 0, &back, 0, size);
-    queue.submit([encoder.finish()]);
-    device.map_buffer(&back.slice(..), MapMode::Read, |mapped| mapped.unwrap());
-    device.poll(PollType::wait_indefinitely()).unwrap();
-    let mapped = back.slice(..).get_mapped_range();
-    bytemuck::cast_slice(&mapped).to_vec()
-}
-
 #[test]
 fn shaders_place_slices_as_rust_does() {
     let mut dice = Dice::new(9);
     let cases: Vec<Case> = (0..20_000).map(|_| Case::roll(&mut dice)).collect();
-    for (case, found) in cases.iter().zip(run(&cases)) {
+    let floats: Vec<[f32; 44]> = cases.iter().map(Case::floats).collect();
+    let shader = include_str!("../../../src/texel/draw/shaders/facet.wgsl");
+    let results: Vec<[f32; 32]> = run(&[shader, ENTRY], &floats);
+    for (case, found) in cases.iter().zip(results) {
         let vector = |at: usize| Vec3::from_slice(&found[at..at + 3]);
         let facet = &case.facet;
         let position = slice_position(case.slice, case.count);

@@ -7,7 +7,7 @@ use bevy_verdure::lab::Studio;
 use bevy_verdure::prelude::*;
 use bevy_verdure::texel::TexelStats;
 
-use super::{BACKGROUND, LOLLY, Square, cover, shot, unlit};
+use super::{BACKGROUND, cover_default, lollies, shot, unlit};
 
 /// Bytes of a facet, as its shaders have it.
 const FACET: usize = 144;
@@ -28,13 +28,7 @@ fn lawn(studio: &mut Studio) -> (Entity, Handle<Mesh>, Vec<Vec3>) {
     let mesh = plane.build();
     let count = mesh.count_vertices();
     let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh);
-    let volume = world
-        .resource_mut::<Assets<TexelVolume>>()
-        .add(LOLLY.clone());
-    let surface = TexelSurface {
-        volume,
-        thickness: 0.2,
-    };
+    let surface = lollies(world, 0.2);
     let surface = world.spawn((Mesh3d(mesh.clone()), surface, unlit())).id();
     (surface, mesh, vec![Vec3::Y * 0.2; count])
 }
@@ -90,12 +84,7 @@ fn what_changed_is_written_and_nothing_else() {
 #[test]
 fn only_views_and_lights_of_a_surface_s_layers_list_its_slices() {
     let mut studio = Studio::default();
-    let surface = cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        unlit(),
-    );
+    let surface = cover_default(&mut studio, unlit());
     studio.photograph(&shot(Vec3::new(1.9, 2.3, 1.2)), BACKGROUND);
     let seen = stats(&mut studio).slices;
     assert!(seen > 0);

@@ -9,7 +9,7 @@ use bevy_verdure::lab::{Pixels, Studio};
 use bevy_verdure::prelude::*;
 
 use super::passes::{floor, mean};
-use super::{BACKGROUND, Square, cover, shot, unlit};
+use super::{BACKGROUND, cover_default, shot, unlit};
 
 const EYE: Vec3 = Vec3::new(1.9, 2.3, 1.2);
 
@@ -17,12 +17,7 @@ const EYE: Vec3 = Vec3::new(1.9, 2.3, 1.2);
 fn lolly(settings: TexelSettings) -> (Studio, Entity) {
     let mut studio = Studio::default();
     floor(&mut studio);
-    let surface = cover(
-        &mut studio,
-        &Square::default(),
-        Transform::IDENTITY,
-        settings,
-    );
+    let surface = cover_default(&mut studio, settings);
     (studio, surface)
 }
 
