@@ -11,6 +11,8 @@ use super::lab::{Drawn, Lab};
 const SAMPLES: u32 = 4;
 /// Vertical field of view, in radians, and lines of the screen that pictures are cut from.
 const SCREEN: (f32, f32) = (0.9, 480.0);
+/// Distances of the eyes, in metres.
+pub const DISTANCES: [f32; 4] = [5.0, 10.0, 25.0, 50.0];
 /// What is behind.
 pub const SKY: Color = Color::srgb(0.6, 0.8, 1.0);
 
@@ -138,11 +140,7 @@ fn chart(
     let bakes: Vec<_> = numbers.iter().map(|n| make(*n)).collect();
     let slicings = baked(lab, &bakes)?;
     let mut series = Vec::new();
-    let distances: &[f32] = if lab.quick {
-        &[25.0]
-    } else {
-        &[10.0, 25.0, 50.0]
-    };
+    let distances: &[f32] = if lab.quick { &[25.0] } else { &DISTANCES };
     for distance in distances {
         let shots = circle(lab, *distance);
         let errors = flips(lab, &shots, &slicings);
