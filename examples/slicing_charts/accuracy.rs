@@ -119,10 +119,17 @@ fn baked(lab: &mut Lab, bakes: &[BakeSettings]) -> Result<Vec<(String, Drawn)>, 
     bakes.iter().map(slicing).collect()
 }
 
-/// Eyes on a circle, off the orientations.
+/// Eyes on a circle, off the orientations: nine, or five of a quick run.
 pub fn circle(lab: &Lab, distance: f32) -> Vec<Shot> {
-    // Neither shares a divisor with most numbers of orientations, so that all discrepancy angles come up.
-    let count = if lab.quick { 5 } else { 9 };
+    eyes(lab, distance, if lab.quick { 5 } else { 9 })
+}
+
+/// Five eyes on a circle, of which six orientations are 3, 9, 15, 21 and 27 degrees off.
+pub fn five(lab: &Lab, distance: f32) -> Vec<Shot> {
+    eyes(lab, distance, 5)
+}
+
+fn eyes(lab: &Lab, distance: f32, count: u32) -> Vec<Shot> {
     (0..count)
         .map(|i| shot(lab, distance, 3.0 + 360.0 / count as f32 * i as f32, 4.0))
         .collect()
@@ -142,7 +149,7 @@ fn chart(
     let mut series = Vec::new();
     let distances: &[f32] = if lab.quick { &[25.0] } else { &DISTANCES };
     for distance in distances {
-        let shots = circle(lab, *distance);
+        let shots = five(lab, *distance);
         let errors = flips(lab, &shots, &slicings);
         let points = numbers
             .iter()

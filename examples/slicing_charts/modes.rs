@@ -3,7 +3,7 @@
 use bevy_verdure::lab::charts::{Axis, Chart, Series};
 use bevy_verdure::prelude::*;
 
-use super::accuracy::{DISTANCES, circle, errors_by_shots};
+use super::accuracy::{DISTANCES, errors_by_shots, five};
 use super::lab::{Drawn, Lab};
 
 /// Error against distance: the default, and what differs from it by one setting.
@@ -49,7 +49,7 @@ pub fn against_distance(lab: &mut Lab) -> Result<Chart, String> {
         ),
     ]
     .map(|(name, settings)| (name.to_string(), Drawn::Slicing(slicing.clone(), settings)));
-    let groups: Vec<_> = DISTANCES.iter().map(|at| circle(lab, *at)).collect();
+    let groups: Vec<_> = DISTANCES.iter().map(|at| five(lab, *at)).collect();
     let errors = errors_by_shots(lab, &groups, &ways);
     let series = ways.iter().zip(errors).map(|((name, _), errors)| {
         let points = DISTANCES.iter().map(|at| f64::from(*at)).zip(errors);
