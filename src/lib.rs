@@ -45,7 +45,7 @@ pub mod prelude {
         MeshSettings, Relief, ReliefMarch, ReliefSteps, ReliefThickness, ShadingNormals,
         frusta_material, relief_material,
     };
-    pub use crate::lighting::PlantLighting;
+    pub use crate::lighting::{LitAsPlant, PlantLighting, PlantMaterial};
     pub use crate::skeleton::{
         Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,
         UnfoldSkeleton,

@@ -16,8 +16,8 @@ struct Facing {
 fn slice_color(in: Varying) -> vec4<f32> {
 #ifdef CROWN_LIGHT_VIEW
     // One pixel says it all: by chance a place is there or not anyhow.
-    let size = crown.pixels >> in.mip;
-    let pixel = min(vec2<u32>(in.uv * f32(size)), vec2(size - 1u));
+    let size = i32(crown.pixels >> in.mip);
+    let pixel = min(vec2<i32>(in.uv * f32(size)), vec2(size - 1));
     var color = textureLoad(color_texture, pixel, in.layer, in.mip);
 #else
     var color = textureSampleLevel(color_texture, slice_sampler, in.uv, in.layer, in.lod);
@@ -53,8 +53,8 @@ fn unfold(folded: vec2<f32>) -> vec3<f32> {
 fn slice_facing(in: Varying) -> Facing {
     // One pixel of the nearest level: opacity smooths over what filters would, at a fifth of their cost.
     let mip = u32(in.lod + 0.5);
-    let size = crown.pixels >> mip;
-    let pixel = min(vec2<u32>(in.uv * f32(size)), vec2(size - 1u));
+    let size = i32(crown.pixels >> mip);
+    let pixel = min(vec2<i32>(in.uv * f32(size)), vec2(size - 1));
     let baked = textureLoad(normal_texture, pixel, in.layer, mip);
 #ifdef CROWN_COMPRESSED
     let occlusion = baked.r;
