@@ -24,14 +24,14 @@ struct Args {
     #[arg(long, default_value = "out")]
     out: PathBuf,
     /// Name of the slicing: NAME.slicing.ron.
-    #[arg(long)]
+    #[arg(long, value_parser = parse_name)]
     name: Option<String>,
     /// What is baked: parts whose mesh or material has one of these in its name. Left out, all connected parts smaller
     /// than `--share` of the model.
     #[arg(long, value_delimiter = ',')]
     sparse: Vec<String>,
     /// How large a connected part of the model must be to count as solid, as a share of the model.
-    #[arg(long, default_value_t = 0.25)]
+    #[arg(long, default_value_t = 0.25, value_parser = parse_share)]
     share: f32,
     /// Orientations over the circle.
     #[arg(long, default_value_t = 6, conflicts_with = "sphere")]
@@ -51,6 +51,25 @@ struct Args {
     /// What a broadleaf grows from.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+}
+
+/// Reads a share, of which 0 is nothing and 1 is all.
+fn parse_share(text: &str) -> Result<f32, String> {
+    let share = text
+        .parse()
+        .ok()
+        .filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| format!("'{text}' is no share: give a number from 0 to 1"))
+}
+
+/// Reads the name of files in a folder.
+fn parse_name(text: &str) -> Result<String, String> {
+    if text.is_empty() || text.contains(['/', '\\']) {
+        return Err(format!(
+            "'{text}' is no name of a file: name the folder with --out"
+        ));
+    }
+    Ok(text.into())
 }
 
 fn main() -> std::process::ExitCode {
@@ -92,7 +111,10 @@ fn run(args: &Args) -> Result<(), String> {
             println!("{done} of {all} slices");
         }
     })
-    .map_err(|error| error.to_string())?;
+    .map_err(|error| match &args.model {
+        Some(path) => format!("{}: {error}", path.display()),
+        None => error.to_string(),
+    })?;
     println!("baked in {:.2} s", start.elapsed().as_secs_f64());
     let mebibytes = |bytes: u64| bytes as f64 / f64::from(1 << 20);
     let stem = args
@@ -121,6 +143,12 @@ fn crown(args: &Args) -> Result<(CrownMesh, usize), String> {
     };
     let parts = load_model(path)?;
     let all: usize = parts.iter().map(|part| part.crown.triangles.len()).sum();
+    if all == 0 {
+        return Err(format!(
+            "{}: has no triangles: export the meshes of its scene",
+            path.display()
+        ));
+    }
     let is_named = |part: &&ModelPart| {
         let holds = |name: &String| {
             part.mesh.contains(name.as_str()) || part.material.contains(name.as_str())

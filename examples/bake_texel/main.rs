@@ -19,7 +19,9 @@ use bevy_verdure::lab::parse_vec3;
 use bevy_verdure::lab::texel_scenes::Pattern;
 use bevy_verdure::texel::build::{Built, Spreading};
 use bevy_verdure::texel::file::{load, save};
-use bevy_verdure::texel::{BuildStep, ReferenceVolume, SliceAxis, SliceSets, Topology, silent};
+use bevy_verdure::texel::{
+    BuildStep, Progress, ReferenceVolume, SliceAxis, SliceSets, Topology, silent,
+};
 use clap::{Args, Parser, Subcommand};
 
 /// Bakes a reference volume.
@@ -81,7 +83,7 @@ struct Output {
     #[arg(long, global = true)]
     within_slices: bool,
     /// The `*.texel.ron` file to write.
-    #[arg(long, value_name = "FILE", global = true)]
+    #[arg(long, value_name = "FILE", value_parser = parse_out, global = true)]
     out: Option<PathBuf>,
     /// Draw four copies of the volume, and its slices, to this PNG.
     #[arg(long, value_name = "FILE.png", global = true)]
@@ -116,6 +118,16 @@ fn parse_voxels(text: &str) -> Result<UVec3, String> {
         (&[x, y, z], 3) => Ok(UVec3::new(x, y, z)),
         _ => Err(format!("'{text}' is no size: write it like 256x256x64")),
     }
+}
+
+/// Reads the name of a volume, so that none is built for nothing.
+fn parse_out(text: &str) -> Result<PathBuf, String> {
+    if text.ends_with(".texel.ron") {
+        return Ok(text.into());
+    }
+    Err(format!(
+        "'{text}' is no name of a volume: let it end in `.texel.ron`"
+    ))
 }
 
 fn main() -> std::process::ExitCode {
@@ -167,12 +179,19 @@ fn make_folder(path: &Path) -> Result<(), String> {
 fn build(source: &Source, output: &Output) -> Result<Built, String> {
     // The line is written anew at each tenth of a step.
     let told = AtomicUsize::new(0);
-    let progress = |step: BuildStep, share: f32| {
+    let built = built(source, output, &|step: BuildStep, share: f32| {
         let now = step as usize * 10 + (share * 10.0) as usize;
         if told.fetch_max(now, Ordering::Relaxed) < now {
             eprint!("\r{:<20}{:>4.0} %", step.name(), share * 100.0);
         }
-    };
+    });
+    if told.into_inner() > 0 {
+        eprintln!();
+    }
+    built
+}
+
+fn built(source: &Source, output: &Output, progress: Progress) -> Result<Built, String> {
     let pattern = match source {
         Source::Pear => Pattern::Pear,
         Source::Bush => Pattern::Bush,
@@ -180,19 +199,21 @@ fn build(source: &Source, output: &Output) -> Result<Built, String> {
         Source::Noise => Pattern::Noise,
         Source::Fur => Pattern::Fur,
         Source::Height { file, colors } => {
-            return sources::height(file, colors.as_deref(), output, &progress);
+            return sources::height(file, colors.as_deref(), output, progress);
         }
-        Source::Images { files } => return sources::images(files, output, &progress),
+        Source::Images { files } => return sources::images(files, output, progress),
         Source::Show { .. } => return Err("there is nothing to build".into()),
     };
+    if output.lengths.is_some() {
+        return Err("the lengths of a pattern are its own: leave out --lengths".into());
+    }
     let size = output.size.unwrap_or(pattern.size());
     pattern
-        .build(size, output.spreading(), &progress)
+        .build(size, output.spreading(), progress)
         .map_err(|error| error.to_string())
 }
 
 fn report(Built { report, .. }: &Built) {
-    eprintln!();
     println!(
         "{} voxels of the surface, {} to close contours, {} inside",
         report.surface_voxels, report.closing_voxels, report.inside_voxels,

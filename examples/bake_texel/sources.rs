@@ -3,16 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use bevy::math::{UVec2, Vec3};
-use bevy_verdure::texel::Progress;
 use bevy_verdure::texel::build::{
     Built, HeightField, StackImage, VolumeSettings, from_height_field, from_images,
 };
+use bevy_verdure::texel::{Progress, TexelError};
 use image::RgbaImage;
 
 use crate::Output;
 
 fn open(path: &Path) -> Result<image::DynamicImage, String> {
-    image::open(path).map_err(|error| format!("{}: {error}", path.display()))
+    image::open(path)
+        .map_err(|error| format!("{}: {error}. Give the path of a PNG", path.display()))
 }
 
 /// Settings for images of a size; there are `slices` of them, or so many are asked for.
@@ -76,5 +77,8 @@ pub fn images(files: &[PathBuf], output: &Output, progress: Progress) -> Result<
         &settings(size, files.len() as u32, output),
         progress,
     );
-    built.map_err(|error| format!("{}: {error}", files[0].display()))
+    built.map_err(|error| match error {
+        TexelError::ImageSize { image, .. } => format!("{}: {error}", files[image].display()),
+        _ => format!("{} images: {error}", files.len()),
+    })
 }

@@ -11,6 +11,8 @@ use super::lab::{Drawn, Lab};
 const SAMPLES: u32 = 4;
 /// Vertical field of view, in radians, and lines of the screen that pictures are cut from.
 const SCREEN: (f32, f32) = (0.9, 480.0);
+/// Distances of the eyes, in metres.
+pub const DISTANCES: [f32; 4] = [5.0, 10.0, 25.0, 50.0];
 /// What is behind.
 pub const SKY: Color = Color::srgb(0.6, 0.8, 1.0);
 
@@ -117,10 +119,17 @@ fn baked(lab: &mut Lab, bakes: &[BakeSettings]) -> Result<Vec<(String, Drawn)>, 
     bakes.iter().map(slicing).collect()
 }
 
-/// Eyes on a circle, off the orientations.
+/// Eyes on a circle, off the orientations: nine, or five of a quick run.
 pub fn circle(lab: &Lab, distance: f32) -> Vec<Shot> {
-    // Neither shares a divisor with most numbers of orientations, so that all discrepancy angles come up.
-    let count = if lab.quick { 5 } else { 9 };
+    eyes(lab, distance, if lab.quick { 5 } else { 9 })
+}
+
+/// Five eyes on a circle, of which six orientations are 3, 9, 15, 21 and 27 degrees off.
+pub fn five(lab: &Lab, distance: f32) -> Vec<Shot> {
+    eyes(lab, distance, 5)
+}
+
+fn eyes(lab: &Lab, distance: f32, count: u32) -> Vec<Shot> {
     (0..count)
         .map(|i| shot(lab, distance, 3.0 + 360.0 / count as f32 * i as f32, 4.0))
         .collect()
@@ -138,13 +147,9 @@ fn chart(
     let bakes: Vec<_> = numbers.iter().map(|n| make(*n)).collect();
     let slicings = baked(lab, &bakes)?;
     let mut series = Vec::new();
-    let distances: &[f32] = if lab.quick {
-        &[25.0]
-    } else {
-        &[10.0, 25.0, 50.0]
-    };
+    let distances: &[f32] = if lab.quick { &[25.0] } else { &DISTANCES };
     for distance in distances {
-        let shots = circle(lab, *distance);
+        let shots = five(lab, *distance);
         let errors = flips(lab, &shots, &slicings);
         let points = numbers
             .iter()

@@ -15,6 +15,7 @@ mod grove;
 mod intersecting;
 mod lab;
 mod light;
+mod modes;
 mod near;
 mod parts;
 mod rivals;
@@ -50,7 +51,7 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 17] = [
+const EXPERIMENTS: [Experiment; 18] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
     ("slicing_switches", switches::error_against_cost),
@@ -60,6 +61,7 @@ const EXPERIMENTS: [Experiment; 17] = [
     ("slicing_slices", accuracy::against_slices),
     ("slicing_orientations", accuracy::against_orientations),
     ("slicing_pixels", accuracy::against_pixels),
+    ("slicing_modes", modes::against_distance),
     ("slicing_compression", compression::against_distance),
     ("slicing_elevation", accuracy::against_elevation),
     ("slicing_discrepancy", discrepancy::against_angle),

@@ -3,7 +3,7 @@
 
 use bevy::prelude::*;
 use bevy_verdure::lab::charts::{Axis, Chart, Point, Series};
-use bevy_verdure::lab::texel_scenes::Pattern;
+use bevy_verdure::lab::texel_scenes::{Pattern, all_slices};
 use bevy_verdure::lab::{Clock, Headless, Race, Shot, Variant, adapter_name, mean_flip};
 use bevy_verdure::prelude::*;
 use bevy_verdure::texel::build::Spreading;
@@ -12,6 +12,7 @@ use bevy_verdure::texel::{BakedLight, silent};
 use super::field::{BACKGROUND, Field, TO_SUN, shot};
 use super::lab::Lab;
 use super::march::Marched;
+use super::whole;
 
 /// Texels along each side.
 const SQUARES: u32 = 4;
@@ -97,18 +98,12 @@ fn ways(lab: &Lab, field: &mut Field) -> Vec<Way> {
             shells,
         );
     }
-    let with = |depth, pixels| TexelSettings {
-        quality: TexelQuality {
-            depth,
-            pixels,
-            ..default()
-        },
-        ..default()
-    };
+    // Lit as the reference is, so that slices alone err.
+    let with = |depth, pixels| whole::with(depth, pixels, PlantLighting::Full);
     for most_slices in powers(size.x) {
         let settings = TexelSettings {
             most_slices,
-            ..with(0.0, 0.0)
+            ..all_slices(PlantLighting::Full)
         };
         let texels = field.cover(&volume, settings);
         add(
@@ -121,12 +116,23 @@ fn ways(lab: &Lab, field: &mut Field) -> Vec<Way> {
     let usual = TexelQuality::default();
     for depth in [2.0, 1.0, 0.5, 0.25, 0.125].into_iter().step_by(every) {
         let texels = field.cover(&volume, with(depth, usual.pixels));
-        let is_default = depth == usual.depth;
-        add("texels, by d/e", depth.to_string(), is_default, texels);
+        add("texels, by d/e", depth.to_string(), false, texels);
     }
     for pixels in [8.0, 4.0, 2.0, 1.0, 0.5].into_iter().step_by(every) {
         let texels = field.cover(&volume, with(0.125, pixels));
         add("texels, by p at d = e/8", pixels.to_string(), false, texels);
+    }
+    for pixels in [4.0, 2.0, 1.0, 0.5].into_iter().step_by(every) {
+        let mut settings = TexelSettings::default();
+        settings.quality.pixels = pixels;
+        let is_default = settings == TexelSettings::default();
+        let texels = field.cover(&volume, settings);
+        add(
+            "texels in simple light, by p",
+            pixels.to_string(),
+            is_default,
+            texels,
+        );
     }
     for (label, turn) in [("same sun", 0.0f32), ("sun 60 degrees on", 60.0)] {
         let from = Quat::from_rotation_z(turn.to_radians()) * TO_SUN;

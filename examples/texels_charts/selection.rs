@@ -87,16 +87,16 @@ pub fn against_distance(lab: &Lab) -> Result<Chart, String> {
             let (fewer, flip) = whole.against(&mut stand, settings);
             let (eye, at) = scene.view();
             let metres = f64::from(distance * eye.distance(at));
-            Point::from((metres, fewer)).labelled(format!("FLIP {flip:.4}"))
+            Point::from((metres, flip)).labelled(format!("{fewer:.1} times fewer"))
         });
         let points: Vec<_> = points.collect();
         series.push(Series::line(name, points));
     }
     Ok(Chart {
-        title: "What the default criteria save of all slices, sphere".into(),
+        title: "Error of the default criteria, and what they save of all slices, sphere".into(),
         subtitle: stand.adapter(),
         x: Axis::log("distance (m)"),
-        y: Axis::log("times fewer slices than all"),
+        y: Axis::log("mean FLIP against all slices"),
         series,
     })
 }

@@ -127,7 +127,11 @@ impl CrownMesh {
     }
 
     /// Refuses what cannot be baked; of degenerate triangles, which have no area, the rest is none the worse.
-    pub(super) fn check(&self) -> Result<(), BakeError> {
+    ///
+    /// # Errors
+    /// When there is no triangle, none has an area, one names a material that is not there, or a number of a vertex is not
+    /// finite, or too far from the origin.
+    pub fn check(&self) -> Result<(), BakeError> {
         if self.triangles.is_empty() {
             return Err(BakeError::NoTriangles);
         }

@@ -5,14 +5,14 @@ use std::time::{Duration, Instant};
 
 use bevy::asset::{AssetPlugin, LoadState};
 use bevy::prelude::*;
-use bevy_verdure::lab::{load_model, save_slicing};
+use bevy_verdure::lab::save_slicing;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::SlicingLoader;
 
 use super::CROWN;
 
 /// A folder of this test's own, emptied.
-fn folder(name: &str) -> PathBuf {
+pub fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("slicing_{name}"));
     // It may not be there yet.
     let _ = std::fs::remove_dir_all(&folder);
@@ -151,75 +151,4 @@ fn the_asset_server_loads_a_crown_and_a_bad_reload_keeps_the_last_good_one() {
             .contains("crown.slicing.ron: pixels is 63"),
         "{error}"
     );
-}
-
-/// A binary glTF of a node at x = 2 with a triangle of 1 m, red, whose index buffer is `indices`.
-fn glb(indices: [u16; 3], mode: u32) -> Vec<u8> {
-    let json = format!(
-        r#"{{"asset":{{"version":"2.0"}},"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0,"translation":[2,0,0]}}],
-        "meshes":[{{"name":"twig","primitives":[{{"attributes":{{"POSITION":0}},"indices":1,"material":0,"mode":{mode}}}]}}],
-        "materials":[{{"name":"leaf","pbrMetallicRoughness":{{"baseColorFactor":[1,0,0,1]}}}}],
-        "buffers":[{{"byteLength":44}}],
-        "bufferViews":[{{"buffer":0,"byteOffset":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":6}}],
-        "accessors":[{{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
-        {{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}}]}}"#
-    );
-    let mut json = json.into_bytes();
-    json.resize(json.len().next_multiple_of(4), b' ');
-    let corners: [[f32; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-    let mut data: Vec<u8> = corners
-        .iter()
-        .flatten()
-        .flat_map(|x| x.to_le_bytes())
-        .collect();
-    data.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
-    data.resize(44, 0);
-    let mut file = b"glTF".to_vec();
-    let length = 12 + 8 + json.len() + 8 + data.len();
-    for number in [2, length as u32, json.len() as u32] {
-        file.extend(number.to_le_bytes());
-    }
-    file.extend(b"JSON");
-    file.extend(json);
-    file.extend((data.len() as u32).to_le_bytes());
-    file.extend(b"BIN\0");
-    file.extend(data);
-    file
-}
-
-#[test]
-fn models_are_read_from_gltf_or_refused_by_name() {
-    let path = folder("model").join("twig.glb");
-    let read = |bytes: &[u8]| {
-        std::fs::write(&path, bytes).expect("the model can be written");
-        load_model(&path)
-    };
-    let parts = read(&glb([0, 1, 2], 4)).expect("a triangle");
-    let [part] = parts.as_slice() else {
-        panic!("{parts:?}")
-    };
-    assert_eq!(
-        (part.mesh.as_str(), part.material.as_str()),
-        ("twig", "leaf")
-    );
-    let triangle = part.crown.triangles[0];
-    assert_eq!(
-        triangle.positions(),
-        [Vec3::X * 2.0, Vec3::X * 3.0, Vec3::new(2.0, 1.0, 0.0)]
-    );
-    assert_eq!(triangle.vertices[0].normal.normalize(), Vec3::Z);
-    assert_eq!(part.crown.materials[0].color, [1.0, 0.0, 0.0, 1.0]);
-    let whole = glb([0, 1, 2], 4);
-    for (bytes, what) in [
-        (glb([0, 1, 7], 4), "`twig`: triangle 0 names vertex 7 of 3"),
-        (glb([0, 1, 2], 5), "`twig` is not a list of triangles"),
-        (whole[..40].to_vec(), "is no glTF"),
-        (b"solid".to_vec(), "is no glTF"),
-    ] {
-        let message = read(&bytes).unwrap_err();
-        assert!(
-            message.contains("twig.glb: ") && message.contains(what),
-            "{message}"
-        );
-    }
 }

@@ -9,6 +9,7 @@ mod files;
 mod intersecting;
 mod lighting;
 mod live;
+mod models;
 mod near;
 mod passes;
 mod steady;
