@@ -10,9 +10,11 @@ mod intersecting;
 mod lighting;
 mod live;
 mod near;
+mod parts;
 mod passes;
 mod steady;
 mod twins;
+mod twins_of_blending;
 
 use std::sync::LazyLock;
 
@@ -57,6 +59,7 @@ const UNLIT: CrownSettings = CrownSettings {
     left_out: 0,
     lighting: PlantLighting::Unlit,
     frames: false,
+    discrepancy: DiscrepancyAngle::PerPart,
 };
 
 /// A shot of the crown from `eye`.
