@@ -2,6 +2,7 @@
 
 use core::f32::consts::TAU;
 
+use super::weights::RISE;
 use super::*;
 use crate::slicing::orientation::{Orientation, Orientations};
 
@@ -329,8 +330,16 @@ fn of_what_any_part_shows_nothing_is_left_out_or_seen_from_behind() {
                             "{eye} {part}: {slot:?} {weight}"
                         );
                     }
-                    // Nearly straight above rays cross many horizontal slicings, which hardly count there.
-                    assert!((sum - 1.0).abs() < 0.03, "{eye} {ray}: {sum}");
+                    // In single precision; but from above 60° rays cross more horizontal slicings than are drawn, of
+                    // which the one left out has half at most of what they have there.
+                    let level =
+                        1.0 - part_weight(&shape, shape.orientations.len() as u32 - 1, part);
+                    let is_above = shape.vertical && eye.y.abs() > RISE[1];
+                    let lost = if is_above { 0.5 * level } else { 0.0 };
+                    assert!(
+                        sum < 1.0 + 1e-4 && sum > 1.0 - lost - 2e-3,
+                        "{eye} {ray}: {sum}"
+                    );
                 }
             }
         }
