@@ -52,7 +52,7 @@ pub mod prelude {
     };
     pub use crate::slicing::{
         BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
-        Orientations, SliceOrder, SlicedCrown, Slicing, SlicingCompression, bake,
+        DiscrepancyAngle, Orientations, SliceOrder, SlicedCrown, Slicing, SlicingCompression, bake,
     };
     pub use crate::texel::{
         LiveTexels, TexelCycle, TexelHeights, TexelQuality, TexelSettings, TexelSurface,
