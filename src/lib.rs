@@ -45,14 +45,14 @@ pub mod prelude {
         MeshSettings, Relief, ReliefMarch, ReliefSteps, ReliefThickness, ShadingNormals,
         frusta_material, relief_material,
     };
-    pub use crate::lighting::PlantLighting;
+    pub use crate::lighting::{LitAsPlant, PlantLighting, PlantMaterial};
     pub use crate::skeleton::{
         Joint, PosedJoints, SegmentEntities, Skeleton, Skeleton3d, SkeletonPose, SkeletonSegment,
         UnfoldSkeleton,
     };
     pub use crate::slicing::{
         BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
-        Orientations, SliceOrder, SlicedCrown, Slicing, SlicingCompression, bake,
+        DiscrepancyAngle, Orientations, SliceOrder, SlicedCrown, Slicing, SlicingCompression, bake,
     };
     pub use crate::texel::{
         LiveTexels, TexelCycle, TexelHeights, TexelQuality, TexelSettings, TexelSurface,

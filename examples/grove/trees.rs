@@ -38,6 +38,7 @@ pub struct Grove {
 pub struct TreeAssets<'w> {
     meshes: ResMut<'w, Assets<Mesh>>,
     materials: ResMut<'w, Assets<StandardMaterial>>,
+    barks: ResMut<'w, Assets<PlantMaterial>>,
     slicings: ResMut<'w, Assets<Slicing>>,
 }
 
@@ -73,11 +74,16 @@ impl Grove {
         let solid = assets.meshes.add(self.meshes.solid.clone());
         let twigs = assets.meshes.add(self.meshes.twigs.clone());
         let leaves = assets.meshes.add(self.meshes.leaves.clone());
-        let wood = assets.materials.add(StandardMaterial {
+        let look = StandardMaterial {
             perceptual_roughness: 0.95,
             reflectance: 0.2,
             ..default()
-        });
+        };
+        // Trunks are lit as the crowns of slices that they bear.
+        let bark = assets
+            .barks
+            .add(LitAsPlant::by(settings.lighting).over(look.clone()));
+        let wood = assets.materials.add(look);
         let green = assets.materials.add(StandardMaterial {
             perceptual_roughness: 0.75,
             reflectance: 0.3,
@@ -119,7 +125,7 @@ impl Grove {
                     place,
                     Visibility::default(),
                     Mesh3d(solid.clone()),
-                    MeshMaterial3d(wood.clone()),
+                    MeshMaterial3d(bark.clone()),
                 ))
                 .with_children(|tree| {
                     tree.spawn((

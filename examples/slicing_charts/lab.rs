@@ -25,6 +25,8 @@ struct Looks {
     leaves: Handle<Mesh>,
     twigs: Handle<Mesh>,
     wood: Handle<StandardMaterial>,
+    /// The trunk's wood beside crowns that are no mesh.
+    bark: Handle<PlantMaterial>,
     green: Handle<StandardMaterial>,
 }
 
@@ -71,11 +73,12 @@ impl Lab {
         let [solid, twigs, leaves] =
             [&tree.solid, &tree.twigs, &tree.leaves].map(|mesh| meshes.add(mesh.clone()));
         let mut materials = world.resource_mut::<Assets<StandardMaterial>>();
-        let wood = materials.add(StandardMaterial {
+        let wood_look = StandardMaterial {
             perceptual_roughness: 0.95,
             reflectance: 0.2,
             ..default()
-        });
+        };
+        let wood = materials.add(wood_look.clone());
         let green = materials.add(StandardMaterial {
             perceptual_roughness: 0.75,
             reflectance: 0.3,
@@ -83,6 +86,9 @@ impl Lab {
             cull_mode: None,
             ..default()
         });
+        let bark = world
+            .resource_mut::<Assets<PlantMaterial>>()
+            .add(LitAsPlant::default().over(wood_look));
         let adapter = adapter_name(world);
         Self {
             studio,
@@ -95,6 +101,7 @@ impl Lab {
                 leaves,
                 twigs,
                 wood,
+                bark,
                 green,
             },
         }
@@ -138,38 +145,34 @@ impl Lab {
             (looks.twigs.clone(), looks.wood.clone()),
             (looks.leaves.clone(), looks.green.clone()),
         ];
-        let trunk = (
-            Mesh3d(looks.solid.clone()),
-            MeshMaterial3d(looks.wood.clone()),
-            place,
-        );
-        let tree = self
-            .studio
-            .world()
-            .spawn((trunk, Visibility::default()))
-            .id();
-        self.studio
-            .world()
-            .entity_mut(tree)
-            .with_children(|tree| match drawn {
-                Drawn::Bare => {}
-                Drawn::Mesh => {
-                    for (mesh, material) in parts {
-                        tree.spawn((Mesh3d(mesh), MeshMaterial3d(material)));
-                    }
+        let trunk = (Mesh3d(looks.solid.clone()), place, Visibility::default());
+        let wood = MeshMaterial3d(looks.wood.clone());
+        let bark = MeshMaterial3d(looks.bark.clone());
+        let mut tree = self.studio.world().spawn(trunk);
+        // As a user of either would have it.
+        match drawn {
+            Drawn::Mesh => tree.insert(wood),
+            _ => tree.insert(bark),
+        };
+        tree.with_children(|tree| match drawn {
+            Drawn::Bare => {}
+            Drawn::Mesh => {
+                for (mesh, material) in parts {
+                    tree.spawn((Mesh3d(mesh), MeshMaterial3d(material)));
                 }
-                Drawn::Impostor((mesh, material)) => {
+            }
+            Drawn::Impostor((mesh, material)) => {
+                tree.spawn((Mesh3d(mesh.clone()), MeshMaterial3d(material.clone())));
+            }
+            Drawn::Billboards(pair) => {
+                for (mesh, material) in pair {
                     tree.spawn((Mesh3d(mesh.clone()), MeshMaterial3d(material.clone())));
                 }
-                Drawn::Billboards(pair) => {
-                    for (mesh, material) in pair {
-                        tree.spawn((Mesh3d(mesh.clone()), MeshMaterial3d(material.clone())));
-                    }
-                }
-                Drawn::Slicing(slicing, settings) => {
-                    tree.spawn((SlicedCrown(slicing.clone()), *settings));
-                }
-            });
-        tree
+            }
+            Drawn::Slicing(slicing, settings) => {
+                tree.spawn((SlicedCrown(slicing.clone()), *settings));
+            }
+        });
+        tree.id()
     }
 }

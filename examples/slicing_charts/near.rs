@@ -22,6 +22,16 @@ fn sliced(lab: &mut Lab, slices: u32) -> Result<Drawn, String> {
     Ok(Drawn::Slicing(slicing, default()))
 }
 
+/// With one discrepancy angle for the whole crown.
+fn one_angle(lab: &mut Lab, slices: u32) -> Result<Drawn, String> {
+    let slicing = lab.bake(&BakeSettings::default().with_slices(slices))?;
+    let settings = CrownSettings {
+        discrepancy: DiscrepancyAngle::PerCrown,
+        ..default()
+    };
+    Ok(Drawn::Slicing(slicing, settings))
+}
+
 /// Error by distance in radii, from outside through the crown to its centre.
 pub fn inside(lab: &mut Lab) -> Result<Chart, String> {
     let ways = [
@@ -84,7 +94,9 @@ fn by_angle(name: &str, places: &[f32], values: &[f64]) -> impl Iterator<Item = 
 pub fn perspective(lab: &mut Lab) -> Result<Chart, String> {
     let ways = [
         ("5 slices".to_string(), sliced(lab, 5)?),
+        ("5 slices, one angle".to_string(), one_angle(lab, 5)?),
         ("15 slices".to_string(), sliced(lab, 15)?),
+        ("15 slices, one angle".to_string(), one_angle(lab, 15)?),
         ("no crown".to_string(), Drawn::Bare),
     ];
     let fields: &[f32] = if lab.quick {

@@ -1,13 +1,17 @@
-//! What lights the sparse and the repeated parts of plants, crowns and texels: as Bevy lights all else, or at less cost.
+//! What lights the sparse and the repeated parts of plants, crowns and texels, and the solid ones beside them: as Bevy lights all else, or at less cost.
 //!
 //! [`PlantLighting::Simple`] (`simple.wgsl`) is right only under directional lights and ambient light. So plants that ask for
-//! it are lit in full while the scene has any other light (`scene.rs`).
+//! it are lit in full while the scene has any other light (`scene.rs`). Their wood can be lit alike (`material.rs`).
 
+mod material;
 mod scene;
 
+use bevy::asset::embedded_asset;
+use bevy::pbr::MaterialPlugin;
 use bevy::prelude::*;
 use bevy::shader::load_shader_library;
 
+pub use material::{LitAsPlant, PlantMaterial};
 pub(crate) use scene::{SceneLighting, SceneLights};
 
 /// What lights a plant. Light is what costs most where many layers are lit, one behind the other.
@@ -43,6 +47,9 @@ impl LightingPlugin {
 impl Plugin for LightingPlugin {
     fn build(&self, app: &mut App) {
         load_shader_library!(app, "simple.wgsl");
-        app.register_type::<PlantLighting>();
+        embedded_asset!(app, "material.wgsl");
+        app.add_plugins(MaterialPlugin::<PlantMaterial>::default())
+            .register_type::<PlantLighting>()
+            .add_systems(PostUpdate, material::follow_lights);
     }
 }

@@ -30,7 +30,7 @@ pub(crate) struct SceneLights<'w, 's> {
 }
 
 /// What lights plants in a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub(crate) struct SceneLighting {
     pub(crate) lighting: PlantLighting,
     /// Whether there is more than one directional light, for which simple lighting needs a loop.

@@ -45,6 +45,8 @@ pub struct CrownSettings {
     pub composition: Composition,
     /// In what order slices are drawn, and which.
     pub order: SliceOrder,
+    /// What the discrepancy angle is taken for, up close.
+    pub discrepancy: DiscrepancyAngle,
     /// How many of the furthest slices of each slicing are left out, as the paper allows (§2.3).
     pub left_out: u32,
     /// What lights the crown. It is some ten slices deep and lit in each: of what `Full` takes among many trees on a software
@@ -52,6 +54,19 @@ pub struct CrownSettings {
     pub lighting: PlantLighting,
     /// Whether each slice has a frame, as in the paper's Figure 3.
     pub frames: bool,
+}
+
+/// What one discrepancy angle (§2.3) holds for, where the eye is less than 3 radii from a crown's centroid. In the paper's order, over
+/// the sphere, in orthographic views and from further away it is always the whole crown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq, Hash)]
+pub enum DiscrepancyAngle {
+    /// For each part of a crown its own (§4), by up to 30° from the middle's, or ¾ of the angle between two orientations. Crowns
+    /// that are near are a draw of their own.
+    #[default]
+    PerPart,
+    /// For the whole crown that of its middle, as in the paper.
+    PerCrown,
 }
 
 /// How the slices of a crown cover what is behind them.

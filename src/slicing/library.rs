@@ -10,30 +10,44 @@ use bevy::prelude::*;
 use bevy::render::renderer::RenderDevice;
 use bevy::render::storage::ShaderBuffer;
 
+use super::blend::{PART_SLOTS, SLOTS, widest};
 use super::component::{CrownSettings, CrownTint, SlicedCrown};
 use super::compression::SlicingCompression;
 use super::material::{CrownUniform, SlicedCrownMaterial};
 use super::mesh::crown_mesh;
+use super::near::Nearness;
 use super::slicing::Slicing;
 use super::upload::{bounds, images, octagons};
 use crate::lighting::SceneLights;
 use crate::wind::Wind;
 
+/// Slicings that are drawn at once of a crown far away, and near by.
+const SLOTS_BY_NEARNESS: [usize; 2] = [SLOTS, PART_SLOTS];
+
+/// What a crown is drawn with.
+pub(crate) type Look = (Mesh3d, MeshMaterial3d<SlicedCrownMaterial>);
+
 /// What crowns of one slicing share.
-struct Shared {
-    mesh: Handle<Mesh>,
+pub(crate) struct Shared {
+    /// For crowns far away, and near by.
+    meshes: [Handle<Mesh>; 2],
     color: Handle<Image>,
     normal: Handle<Image>,
     octagons: Handle<ShaderBuffer>,
     bounds: Aabb,
+    /// The centroid, local, and the radius.
+    pub(crate) ball: (Vec3, f32),
+    /// Whether parts may be seen from directions of their own.
+    pub(crate) has_parts: bool,
     compressed: bool,
-    materials: HashMap<CrownSettings, Handle<SlicedCrownMaterial>>,
+    /// For crowns far away, and near by.
+    materials: HashMap<CrownSettings, [Handle<SlicedCrownMaterial>; 2]>,
 }
 
 /// What is on the GPU, by slicing, as long as a crown uses it.
 #[derive(Resource, Default)]
 pub(crate) struct CrownLibrary {
-    shared: HashMap<AssetId<Slicing>, Shared>,
+    pub(crate) shared: HashMap<AssetId<Slicing>, Shared>,
 }
 
 /// The assets that slicings are turned into, and what they are turned into them for.
@@ -69,11 +83,14 @@ impl Shared {
         let compressed = assets.compresses(slicing);
         let [color, normal] = images(slicing, compressed);
         Self {
-            mesh: assets.meshes.add(crown_mesh(slicing.shape())),
+            meshes: SLOTS_BY_NEARNESS
+                .map(|slots| assets.meshes.add(crown_mesh(slicing.shape(), slots))),
             color: assets.images.add(color),
             normal: assets.images.add(normal),
             octagons: assets.buffers.add(octagons(slicing)),
             bounds: bounds(slicing),
+            ball: (slicing.shape().centroid, slicing.shape().radius),
+            has_parts: widest(slicing.shape()) > 0.0,
             compressed,
             materials: HashMap::default(),
         }
@@ -90,17 +107,21 @@ impl Shared {
                 .buffers
                 .insert(self.octagons.id(), octagons(slicing))
                 .is_ok(),
-            assets
-                .meshes
-                .insert(self.mesh.id(), crown_mesh(slicing.shape()))
-                .is_ok(),
         ];
+        for (mesh, slots) in self.meshes.iter().zip(SLOTS_BY_NEARNESS) {
+            let mesh = assets
+                .meshes
+                .insert(mesh.id(), crown_mesh(slicing.shape(), slots));
+            debug_assert!(mesh.is_ok(), "handles keep their assets");
+        }
         debug_assert!(
             is_kept.into_iter().all(|kept| kept),
             "handles keep their assets"
         );
         self.bounds = bounds(slicing);
-        for (settings, material) in &self.materials {
+        self.ball = (slicing.shape().centroid, slicing.shape().radius);
+        self.has_parts = widest(slicing.shape()) > 0.0;
+        for (settings, material) in self.each_material() {
             if let Some(mut material) = assets.materials.get_mut(material) {
                 material.crown = CrownUniform::new(slicing.shape(), settings, wind);
                 material.compressed = self.compressed;
@@ -108,14 +129,29 @@ impl Shared {
         }
     }
 
-    fn material(
+    fn each_material(
+        &self,
+    ) -> impl Iterator<Item = (&CrownSettings, &Handle<SlicedCrownMaterial>)> {
+        let all = self.materials.iter();
+        all.flat_map(|(settings, pair)| pair.iter().map(move |material| (settings, material)))
+    }
+
+    /// What a crown is drawn with, far away or near by; nothing before it was given anything.
+    pub(crate) fn look(&self, settings: &CrownSettings, is_near: bool) -> Option<Look> {
+        let i = usize::from(is_near);
+        let material = self.materials.get(settings)?[i].clone();
+        Some((Mesh3d(self.meshes[i].clone()), MeshMaterial3d(material)))
+    }
+
+    /// Makes what crowns of some settings need, if it is not there.
+    fn ensure(
         &mut self,
         slicing: &Slicing,
         settings: CrownSettings,
         wind: Vec3,
         assets: &mut CrownAssets,
-    ) -> Handle<SlicedCrownMaterial> {
-        let make = || {
+    ) {
+        let make = |parts| {
             assets.materials.add(SlicedCrownMaterial {
                 crown: CrownUniform::new(slicing.shape(), &settings, wind),
                 octagons: self.octagons.clone(),
@@ -125,9 +161,12 @@ impl Shared {
                 // Until `follow_lights` says otherwise, in this very frame.
                 lighting: settings.lighting.into(),
                 compressed: self.compressed,
+                parts,
             })
         };
-        self.materials.entry(settings).or_insert_with(make).clone()
+        self.materials
+            .entry(settings)
+            .or_insert_with(|| [false, true].map(make));
     }
 }
 
@@ -158,12 +197,14 @@ pub(crate) fn attach(
         };
         let shared = library.shared.entry(handle.id());
         let shared = shared.or_insert_with(|| Shared::new(slicing, &mut assets));
-        let material = shared.material(slicing, *settings, wind, &mut assets);
-        commands.entity(entity).try_insert((
-            Mesh3d(shared.mesh.clone()),
-            MeshMaterial3d(material),
+        shared.ensure(slicing, *settings, wind, &mut assets);
+        let look = shared.look(settings, false);
+        let crown = (
+            look.expect("it is made"),
             shared.bounds,
-        ));
+            Nearness::default(),
+        );
+        commands.entity(entity).try_insert(crown);
     }
 }
 
@@ -200,7 +241,7 @@ pub(crate) fn follow_wind(
 ) {
     let wind = wind.limited().extend(0.0);
     let all = library.shared.values();
-    for material in all.flat_map(|shared| shared.materials.values()) {
+    for (_, material) in all.flat_map(Shared::each_material) {
         if let Some(mut material) = materials.get_mut(material) {
             material.crown.wind = wind;
         }
@@ -214,7 +255,7 @@ pub(crate) fn follow_lights(
     lights: SceneLights,
 ) {
     let all = library.shared.values();
-    for (settings, material) in all.flat_map(|shared| &shared.materials) {
+    for (settings, material) in all.flat_map(Shared::each_material) {
         let lighting = lights.lighting(settings.lighting);
         // Only what is written to counts as changed.
         if let Some(mut material) = materials.get_mut(material)
@@ -237,7 +278,7 @@ pub(crate) fn tint(mut crowns: Query<(Entity, &CrownTint, &mut MeshTag), Changed
 /// Stops drawing an entity that is a crown no more.
 pub(crate) fn uproot(removed: On<Remove, SlicedCrown>, mut commands: Commands) {
     if let Ok(mut entity) = commands.get_entity(removed.entity) {
-        entity.try_remove::<(Mesh3d, MeshMaterial3d<SlicedCrownMaterial>, Aabb)>();
+        entity.try_remove::<(Look, Aabb, Nearness)>();
     }
 }
 

@@ -15,7 +15,7 @@ use bevy::render::render_resource::{
 use bevy::render::storage::ShaderBuffer;
 use bevy::shader::ShaderRef;
 
-use super::blend::SliceOrder;
+use super::blend::{SliceOrder, widest};
 use super::component::{Composition, CrownSettings};
 use super::limits::MAX_ORIENTATIONS;
 use super::mesh::ATTRIBUTE_CORNER;
@@ -51,6 +51,7 @@ pub(crate) struct CrownUniform {
     vertical: u32,
     flexibility: f32,
     pixels: u32,
+    widest: f32,
     /// Velocity of the wind.
     pub(crate) wind: Vec4,
     orientations: [OrientationUniform; MAX_ORIENTATIONS],
@@ -82,6 +83,7 @@ impl CrownUniform {
             vertical: shape.vertical.into(),
             flexibility: FLEXIBILITY * shape.radius,
             pixels: shape.pixels,
+            widest: widest(shape),
             wind: wind.extend(0.0),
             orientations,
         }
@@ -106,6 +108,8 @@ pub struct SlicedCrownMaterial {
     pub(crate) lighting: SceneLighting,
     /// Whether the textures are compressed, so that normals are folded to an octahedron's square.
     pub(crate) compressed: bool,
+    /// Whether the discrepancy angle is taken part by part, up close.
+    pub(crate) parts: bool,
 }
 
 /// What tells pipelines apart.
@@ -115,6 +119,7 @@ pub struct CrownKey {
     order: SliceOrder,
     lighting: SceneLighting,
     frames: bool,
+    parts: bool,
     compressed: bool,
 }
 
@@ -126,6 +131,7 @@ impl From<&SlicedCrownMaterial> for CrownKey {
             order: settings.order,
             lighting: material.lighting,
             frames: settings.frames,
+            parts: material.parts,
             compressed: material.compressed,
         }
     }
@@ -182,6 +188,7 @@ impl Material for SlicedCrownMaterial {
             (lighting == PlantLighting::Simple, "CROWN_SIMPLE_LIGHT"),
             (crown.lighting.more_suns, "MORE_SUNS"),
             (crown.frames, "CROWN_FRAMES"),
+            (crown.parts, "CROWN_PARTS"),
             (crown.compressed, "CROWN_COMPRESSED"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
         ]);

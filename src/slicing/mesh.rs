@@ -4,7 +4,6 @@ use bevy::asset::RenderAssetUsages;
 use bevy::math::Vec3;
 use bevy::mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexFormat};
 
-use super::blend::SLOTS;
 use super::octagon::CORNERS;
 use super::slicing::SlicingShape;
 
@@ -15,16 +14,16 @@ pub(crate) const ATTRIBUTE_CORNER: MeshVertexAttribute = MeshVertexAttribute::ne
     VertexFormat::Uint32,
 );
 
-/// The most slices that are drawn of a crown at once: those of two levels that fade into one another, in all slots.
-pub(crate) fn most_slices(shape: &SlicingShape) -> u32 {
+/// The most slices that are drawn of a crown at once: those of two levels that fade into one another, in all `slots`.
+pub(crate) fn most_slices(shape: &SlicingShape, slots: usize) -> u32 {
     let pairs = shape.levels.windows(2).map(|pair| pair[0] + pair[1]);
-    pairs.max().unwrap_or(shape.levels[0]) * SLOTS as u32
+    pairs.max().unwrap_or(shape.levels[0]) * slots as u32
 }
 
-/// The mesh for a slicing. Its positions are never drawn: they are corners of a box round the crown, with room to sway,
+/// The mesh for a slicing, of which so many `slots` are drawn at once. Its positions are never drawn: they are corners of a box round the crown, with room to sway,
 /// which tells Bevy the crown's bounds and the middle that it is sorted by.
-pub(crate) fn crown_mesh(shape: &SlicingShape) -> Mesh {
-    let count = most_slices(shape) * CORNERS as u32;
+pub(crate) fn crown_mesh(shape: &SlicingShape, slots: usize) -> Mesh {
+    let count = most_slices(shape, slots) * CORNERS as u32;
     let reach = 1.1 * shape.radius;
     let position = |vertex: u32| {
         let side = |bit: u32| {
@@ -36,7 +35,7 @@ pub(crate) fn crown_mesh(shape: &SlicingShape) -> Mesh {
         };
         shape.centroid + Vec3::new(side(0), side(1), side(2))
     };
-    let indices = (0..most_slices(shape)).flat_map(|slice| {
+    let indices = (0..most_slices(shape, slots)).flat_map(|slice| {
         let first = slice * CORNERS as u32;
         (1..CORNERS as u32 - 1).flat_map(move |i| [first, first + i, first + i + 1])
     });

@@ -54,6 +54,7 @@ mod limits;
 mod loader;
 mod material;
 mod mesh;
+mod near;
 pub mod octagon;
 mod octahedral;
 mod orientation;
@@ -81,7 +82,7 @@ pub use bake::{
 };
 pub use blend::{DrawnSlice, SliceOrder};
 pub use close_up::close_up;
-pub use component::{Composition, CrownSettings, CrownTint, SlicedCrown};
+pub use component::{Composition, CrownSettings, CrownTint, DiscrepancyAngle, SlicedCrown};
 pub use compression::SlicingCompression;
 pub use document::{Picture, SlicingDocument, read_picture};
 pub use error::{SlicingError, SlicingFileError, SlicingFileErrorKind};
@@ -108,6 +109,8 @@ impl Plugin for SlicingPlugin {
         LightingPlugin::add_to(app);
         load_shader_library!(app, "shaders/types.wgsl");
         load_shader_library!(app, "shaders/blend.wgsl");
+        load_shader_library!(app, "shaders/parts.wgsl");
+        load_shader_library!(app, "shaders/drawn.wgsl");
         load_shader_library!(app, "shaders/cast.wgsl");
         load_shader_library!(app, "shaders/lots.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
@@ -140,6 +143,15 @@ impl Plugin for SlicingPlugin {
                     // An app without a renderer has none; it draws no crowns either.
                     .run_if(resource_exists::<Assets<ShaderBuffer>>)
                     .in_set(VerdureSystems::Attach)
+                    .before(AssetEventSystems),
+            )
+            .add_systems(
+                PostUpdate,
+                near::part_by_part
+                    .run_if(resource_exists::<Assets<ShaderBuffer>>)
+                    .after(VerdureSystems::Attach)
+                    // Where crowns and cameras are in this frame.
+                    .after(TransformSystems::Propagate)
                     .before(AssetEventSystems),
             );
     }

@@ -25,3 +25,4 @@ mod twins;
 mod view;
 mod views;
 mod watertight;
+mod wood;

@@ -1,16 +1,18 @@
 //! View blending (§2.3): which slicings are drawn for an eye, how opaque, and in what order.
 //!
-//! `weights.rs` finds the slicings and their weights, `detail.rs` the level, `cast.rs` what casts shadows; here
+//! `weights.rs` finds the slicings and their weights, `parts.rs` how they differ from part to part up close, `detail.rs` the level, `cast.rs` what casts shadows; here
 //! they become slices, far to near. `shaders/blend.wgsl` and `shaders/cast.wgsl` have the same functions by the same names.
 
 use bevy::math::Vec3;
 
 mod cast;
 mod detail;
+mod parts;
 mod weights;
 
 pub use cast::{DENSEST, cast_slices, facing, first_leaf};
 pub use detail::{FOCAL, levels};
+pub use parts::{PART_SLOTS, PARTS, deviation, part_direction, part_slots, part_weight, widest};
 pub use weights::{ALONE, SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slots};
 
 use super::slicing::SlicingShape;

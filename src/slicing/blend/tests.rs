@@ -2,6 +2,7 @@
 
 use core::f32::consts::TAU;
 
+use super::weights::RISE;
 use super::*;
 use crate::slicing::orientation::{Orientation, Orientations};
 
@@ -280,4 +281,93 @@ fn weights_add_up_to_1_for_any_eye() {
             }
         }
     }
+}
+
+/// Directions in a cone of an angle round a direction, its edge among them.
+fn cone(direction: Vec3, angle: f32) -> impl Iterator<Item = Vec3> {
+    let (x, y) = direction.any_orthonormal_pair();
+    [0.0, 0.3, 0.7, 1.0].into_iter().flat_map(move |share| {
+        let (sin, cos) = (share * angle).sin_cos();
+        (0..16).map(move |i| {
+            let (s, c) = (i as f32 * core::f32::consts::FRAC_PI_8).sin_cos();
+            direction * cos + (x * c + y * s) * sin
+        })
+    })
+}
+
+#[test]
+fn of_what_any_part_shows_nothing_is_left_out_or_seen_from_behind() {
+    for shape in [
+        shape(Orientations::Circle(6), true),
+        shape(Orientations::Circle(3), false),
+        shape(Orientations::Circle(24), true),
+        shape(
+            Orientations::Arc {
+                count: 2,
+                from: 0.0,
+                to: 0.5,
+            },
+            true,
+        ),
+    ] {
+        for distance in [0.5, 1.5, 2.5] {
+            let deviation = deviation(distance, widest(&shape));
+            for eye in Orientations::Sphere(499).directions() {
+                let drawn = part_slots(&shape, eye, deviation);
+                assert!(drawn.is_sorted_by_key(|slot| slot.orientation));
+                let is_circle = shape.orientations.len() > 3;
+                for ray in cone(eye, deviation.y.atan2(deviation.x)) {
+                    let part = part_direction(eye, ray, deviation);
+                    let mut sum = 0.0;
+                    for slot in drawn.iter().filter(|slot| slot.weight > 0.0) {
+                        let weight = part_weight(&shape, slot.orientation, part);
+                        sum += weight;
+                        let o = shape.orientations[slot.orientation as usize];
+                        // Slices change their order where they are seen from the side.
+                        let facing = o.direction.dot(eye) * o.direction.dot(part);
+                        assert!(
+                            !is_circle || facing > 0.0 || weight < 0.02,
+                            "{eye} {part}: {slot:?} {weight}"
+                        );
+                    }
+                    // In single precision; but from above 60° rays cross more horizontal slicings than are drawn, of
+                    // which the one left out has half at most of what they have there.
+                    let level =
+                        1.0 - part_weight(&shape, shape.orientations.len() as u32 - 1, part);
+                    let is_above = shape.vertical && eye.y.abs() > RISE[1];
+                    let lost = if is_above { 0.5 * level } else { 0.0 };
+                    assert!(
+                        sum < 1.0 + 1e-4 && sum > 1.0 - lost - 2e-3,
+                        "{eye} {ray}: {sum}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn parts_differ_by_no_more_than_they_are_seen_under_and_from_far_by_nothing() {
+    let shape = shape(Orientations::Circle(6), true);
+    let angle = |distance: f32| {
+        let deviation = deviation(distance, widest(&shape));
+        deviation.y.atan2(deviation.x)
+    };
+    assert!((angle(0.0) - 30.0_f32.to_radians()).abs() < 1e-6);
+    // Half-way from 2 to 3 radii, half of the arc sine of 1/2.5.
+    assert!((angle(2.5) - 0.5 * 0.4_f32.asin()).abs() < 1e-6);
+    assert_eq!(angle(PARTS[1]), 0.0);
+    for eye in Orientations::Sphere(99).directions() {
+        for ray in Orientations::Sphere(99).directions() {
+            let part = part_direction(eye, ray, deviation(1.2, widest(&shape)));
+            assert!((part.length() - 1.0).abs() < 1e-5);
+            let most = angle(1.2).min(eye.angle_between(ray));
+            assert!(ray == -eye || (part.angle_between(eye) - most).abs() < 2e-3);
+        }
+    }
+    assert_eq!(widest(&shape_of_the_sphere()), 0.0);
+}
+
+fn shape_of_the_sphere() -> SlicingShape {
+    shape(Orientations::Sphere(9), false)
 }

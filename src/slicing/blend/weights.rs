@@ -9,7 +9,7 @@ use crate::slicing::slicing::SlicingShape;
 pub const SLOTS: usize = 3;
 
 /// Sines of the eye's elevation from where to where the vertical slicing takes over: 30° to 60°.
-const RISE: [f32; 2] = [0.5, 0.866];
+pub(super) const RISE: [f32; 2] = [0.5, 0.866];
 
 /// A slicing that is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

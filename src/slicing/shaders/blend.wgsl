@@ -20,13 +20,6 @@ struct Slot {
     weight: f32,
 }
 
-struct DrawnSlice {
-    orientation: u32,
-    level: u32,
-    index: u32,
-    opacity: f32,
-}
-
 fn primary_opacity(primary: vec3<f32>, secondary: vec3<f32>, eye: vec3<f32>, alone: f32) -> f32 {
     let cosine = clamp(dot(primary, secondary), -1.0, 1.0);
     let across = secondary - primary * cosine;
@@ -128,71 +121,4 @@ fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
 
 fn covered(alpha: f32, weight: f32) -> f32 {
     return 1.0 - pow(1.0 - SUREST * alpha, weight);
-}
-
-// The slice that is drawn in the `number`th place, far to near, for an eye in a direction (unit) from the centroid and
-// apparently so many radii away; of no opacity where there is none.
-fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32) -> DrawnSlice {
-    let detail = levels(distance);
-    // The coarser level comes first, where it shows at all.
-    var level = u32(detail.x);
-    var share = detail.y;
-    var place = number;
-    if share < 1.0 {
-        let coarse = crown.levels[level + 1u] * SLOTS;
-        if place < coarse {
-            level += 1u;
-            share = 1.0 - share;
-        } else {
-            place -= coarse;
-        }
-    }
-    let count = crown.levels[level];
-    let rank = place / SLOTS;
-    if rank >= count || rank < crown.left_out {
-        return DrawnSlice(0u, 0u, 0u, 0.0);
-    }
-    let slots = slots(direction);
-    let greatest = max(max(slots[0].weight, slots[1].weight), slots[2].weight);
-    var slot = slots[0];
-    if place % SLOTS == 1u {
-        slot = slots[1];
-    } else if place % SLOTS == 2u {
-        slot = slots[2];
-    }
-    let faces = dot(crown.orientations[slot.orientation].direction, direction) >= 0.0;
-    return DrawnSlice(
-        slot.orientation,
-        level,
-        select(count - 1u - rank, rank, faces),
-#ifdef CROWN_PAPER_ORDER
-        corrected(slot.weight * share, greatest, crown.correction),
-#else
-        slot.weight * share,
-#endif
-    );
-}
-
-// The slices that cast shadows for light from a direction: those of the nearest orientation, in the coarsest level. What is
-// next to the light comes first.
-fn cast_slice(number: u32, direction: vec3<f32>) -> DrawnSlice {
-#ifdef CROWN_PAPER_ORDER
-    let level = 0u;
-#else
-    let level = crown.levels.w - 1u;
-#endif
-    let count = crown.levels[level];
-    if number >= count {
-        return DrawnSlice(0u, 0u, 0u, 0.0);
-    }
-    var nearest = 0u;
-    var greatest = -2.0;
-    for (var i = 0u; i < crown.orientation_count; i += 1u) {
-        let cosine = dot(crown.orientations[i].direction, direction);
-        if cosine > greatest {
-            nearest = i;
-            greatest = cosine;
-        }
-    }
-    return DrawnSlice(nearest, level, select(number, count - 1u - number, greatest >= 0.0), 1.0);
 }

@@ -2,8 +2,10 @@
 
 // The fragment stage of all passes: what a slice looks like at a place.
 
-#import bevy_verdure::slicing::types::{crown, color_texture, normal_texture, slice_sampler}
+#import bevy_verdure::slicing::types::{crown, orientation_of, color_texture, normal_texture, slice_sampler}
+#import bevy_pbr::mesh_view_bindings::view
 #import bevy_verdure::slicing::blend::covered
+#import bevy_verdure::slicing::parts::{part_direction, part_weight}
 #import bevy_verdure::slicing::place::Varying
 
 struct Facing {
@@ -16,12 +18,17 @@ struct Facing {
 fn slice_color(in: Varying) -> vec4<f32> {
 #ifdef CROWN_LIGHT_VIEW
     // One pixel says it all: by chance a place is there or not anyhow.
-    let size = crown.pixels >> in.mip;
-    let pixel = min(vec2<u32>(in.uv * f32(size)), vec2(size - 1u));
+    let size = i32(crown.pixels >> in.mip);
+    let pixel = min(vec2<i32>(in.uv * f32(size)), vec2(size - 1));
     var color = textureLoad(color_texture, pixel, in.layer, in.mip);
 #else
     var color = textureSampleLevel(color_texture, slice_sampler, in.uv, in.layer, in.lod);
-#ifdef CROWN_PAPER_ORDER
+#ifdef CROWN_PARTS
+    let to_eye = view.world_position - in.world_position;
+    let ray = normalize(vec3(dot(in.turn_x, to_eye), dot(in.turn_y, to_eye), dot(in.turn_z, to_eye)));
+    let weight = part_weight(orientation_of(in.layer), part_direction(in.direction, ray, in.differ));
+    color.a = covered(color.a, weight * in.opacity);
+#else ifdef CROWN_PAPER_ORDER
     color.a *= in.opacity;
 #else
     color.a = covered(color.a, in.opacity);
@@ -53,8 +60,8 @@ fn unfold(folded: vec2<f32>) -> vec3<f32> {
 fn slice_facing(in: Varying) -> Facing {
     // One pixel of the nearest level: opacity smooths over what filters would, at a fifth of their cost.
     let mip = u32(in.lod + 0.5);
-    let size = crown.pixels >> mip;
-    let pixel = min(vec2<u32>(in.uv * f32(size)), vec2(size - 1u));
+    let size = i32(crown.pixels >> mip);
+    let pixel = min(vec2<i32>(in.uv * f32(size)), vec2(size - 1));
     let baked = textureLoad(normal_texture, pixel, in.layer, mip);
 #ifdef CROWN_COMPRESSED
     let occlusion = baked.r;

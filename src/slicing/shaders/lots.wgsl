@@ -21,7 +21,8 @@ fn footprint(uv: vec2<f32>) -> f32 {
 
 // What is drawn for a place, from 0 to 1: it is there where that is less than its opacity.
 fn lot_of(uv: vec2<f32>, cells: f32, lot: u32) -> f32 {
-    let cell = vec2<u32>(floor(uv * cells));
+    // By way of signed numbers, which drivers in software turn sooner.
+    let cell = bitcast<vec2<u32>>(vec2<i32>(uv * cells));
     let number = pcg(cell.x + pcg(cell.y + lot));
-    return f32(number) * (1.0 / 4294967296.0);
+    return f32(bitcast<i32>(number >> 8u)) * (1.0 / 16777216.0);
 }

@@ -7,8 +7,10 @@
 #import bevy_render::globals::Globals
 #import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
 #import bevy_verdure::slicing::types::{crown, octagons, first_layer}
-#import bevy_verdure::slicing::blend::{FOCAL, cast_slice, drawn_slice}
+#import bevy_verdure::slicing::blend::FOCAL
+#import bevy_verdure::slicing::drawn::{cast_slice, drawn_slice}
 #import bevy_verdure::slicing::cast::facing
+#import bevy_verdure::slicing::parts::deviation
 #import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
 
@@ -56,6 +58,11 @@ struct Varying {
     // ... and 1 in the shadow map's depth.
     @location(8) @interpolate(flat) deep: f32,
 #else
+#ifdef CROWN_PARTS
+    // Direction to the eye from the centroid, local, and how much that from a part may differ.
+    @location(14) @interpolate(flat) direction: vec3<f32>,
+    @location(15) @interpolate(flat) differ: vec2<f32>,
+#endif
     // In linear light.
     @location(5) @interpolate(flat) tint: vec3<f32>,
     @location(6) world_position: vec3<f32>,
@@ -152,7 +159,9 @@ fn place_corner(in: Corner) -> Varying {
     let slice = cast_slice(in.corner >> 3u, direction);
 #else
     let apparent = apparent_distance(in.instance_index, distance);
-    let slice = drawn_slice(in.corner >> 3u, direction, apparent);
+    // From far, all parts are seen from one direction.
+    let differ = deviation(select(distance, 1e9, is_orthographic()), crown.widest);
+    let slice = drawn_slice(in.corner >> 3u, direction, apparent, differ);
 #endif
     if slice.opacity <= 0.0 {
         return out;
@@ -220,6 +229,10 @@ fn place_corner(in: Corner) -> Varying {
     out.deep = 0.5 / length(axes / size) * metre(in.instance_index) * view.clip_from_view[2].z;
 #else
     out.lod = mip_level(max(size.x, size.y), length(eye * crown.radius - o.direction * depth), in.instance_index);
+#ifdef CROWN_PARTS
+    out.direction = direction;
+    out.differ = differ;
+#endif
     out.tint = tint(tag);
     out.world_position = from_eye + view.world_position;
     let turn = turn_of_normals(in.instance_index);

@@ -25,6 +25,8 @@ struct Crown {
     flexibility: f32,
     // Along a side of a slice.
     pixels: u32,
+    // The greatest angle by which a part's direction may differ from the crown's, in radians.
+    widest: f32,
     // xyz: velocity.
     wind: vec4<f32>,
     orientations: array<Orientation, 32>,
@@ -36,6 +38,15 @@ struct Crown {
 @group(#{MATERIAL_BIND_GROUP}) @binding(2) var color_texture: texture_2d_array<f32>;
 @group(#{MATERIAL_BIND_GROUP}) @binding(3) var slice_sampler: sampler;
 @group(#{MATERIAL_BIND_GROUP}) @binding(4) var normal_texture: texture_2d_array<f32>;
+
+// Which orientation a layer is of.
+fn orientation_of(layer: u32) -> u32 {
+    let first = crown.levels.x * crown.orientation_count;
+    let second = first + crown.levels.y * crown.orientation_count;
+    if layer < first { return layer / crown.levels.x; }
+    if layer < second { return (layer - first) / crown.levels.y; }
+    return (layer - second) / max(crown.levels.z, 1u);
+}
 
 fn first_layer(level: u32, orientation: u32) -> u32 {
     var before = 0u;

@@ -11,9 +11,11 @@ mod lighting;
 mod live;
 mod models;
 mod near;
+mod parts;
 mod passes;
 mod steady;
 mod twins;
+mod twins_of_blending;
 
 use std::sync::LazyLock;
 
@@ -58,6 +60,7 @@ const UNLIT: CrownSettings = CrownSettings {
     left_out: 0,
     lighting: PlantLighting::Unlit,
     frames: false,
+    discrepancy: DiscrepancyAngle::PerPart,
 };
 
 /// A shot of the crown from `eye`.

@@ -1,0 +1,88 @@
+#define_import_path bevy_verdure::slicing::parts
+
+// The discrepancy angle part by part (§4), function by function what blend/parts.rs is.
+
+#import bevy_verdure::slicing::types::crown
+#import bevy_verdure::slicing::blend::{RISE, Slot, slots}
+
+const PART_SLOTS: u32 = 4u;
+const PARTS: vec2<f32> = vec2(2.0, 3.0);
+
+// Cosine and sine of the angle by which directions to the eye may differ from that from the centroid, for an eye so many radii
+// away.
+fn deviation(distance: f32, widest: f32) -> vec2<f32> {
+    let seen = asin(1.0 / max(distance, 1.0));
+    let angle = min(seen, widest) * (1.0 - smoothstep(PARTS.x, PARTS.y, distance));
+    return vec2(cos(angle), sin(angle));
+}
+
+// The direction to the eye that counts for what is seen along `ray`.
+fn part_direction(direction: vec3<f32>, ray: vec3<f32>, deviation: vec2<f32>) -> vec3<f32> {
+    let cosine = dot(direction, ray);
+    if cosine >= deviation.x {
+        return ray;
+    }
+    let across = ray - direction * cosine;
+    return direction * deviation.x + across * (deviation.y / max(length(across), 1e-6));
+}
+
+fn part_weight(orientation: u32, direction: vec3<f32>) -> f32 {
+    let all = slots(direction);
+    var weight = 0.0;
+    for (var k = 0u; k < 3u; k += 1u) {
+        weight += select(0.0, all[k].weight, all[k].orientation == orientation);
+    }
+    return weight;
+}
+
+// Whether an orientation counts for any part.
+fn counts(orientation: u32, direction: vec3<f32>, deviation: vec2<f32>) -> bool {
+    let towards = crown.orientations[orientation].direction;
+    if abs(towards.y) > 0.999 {
+        // The vertical one shows either side.
+        let side = select(towards, -towards, direction.y < 0.0);
+        return part_weight(orientation, part_direction(direction, side, deviation)) > 0.0;
+    }
+    let level = vec3(direction.x, 0.0, direction.z);
+    let cosine = max(length(level), 1e-6);
+    let lowest = part_direction(direction, level / cosine, deviation);
+    if crown.vertical != 0u && abs(lowest.y) >= RISE.y {
+        return false;
+    }
+    // The sine of the widest turn of azimuth in a cone round the direction.
+    let sine = deviation.y / cosine;
+    if sine >= 1.0 || abs(towards.y) > 0.01 || dot(towards, level) < 0.0 {
+        return true;
+    }
+    let turned = part_direction(level / cosine, towards, vec2(sqrt(1.0 - sine * sine), sine));
+    return part_weight(orientation, turned) > 0.0;
+}
+
+// The `number`th of the slicings that are drawn: of weight 1 where it counts for any part, else 0.
+fn part_slot(number: u32, direction: vec3<f32>, deviation: vec2<f32>) -> Slot {
+    let count = crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
+    var nearest = vec3(0u);
+    var cosines = vec3(-2.0);
+    for (var i = 0u; i < count; i += 1u) {
+        let cosine = dot(crown.orientations[i].direction, direction);
+        if cosine > cosines.x {
+            nearest = vec3(i, nearest.xy);
+            cosines = vec3(cosine, cosines.xy);
+        } else if cosine > cosines.y {
+            nearest = vec3(nearest.x, i, nearest.y);
+            cosines = vec3(cosines.x, cosine, cosines.y);
+        } else if cosine > cosines.z {
+            nearest.z = i;
+            cosines.z = cosine;
+        }
+    }
+    let low = min(nearest.x, min(nearest.y, nearest.z));
+    let high = max(nearest.x, max(nearest.y, nearest.z));
+    let sorted = array(low, nearest.x + nearest.y + nearest.z - low - high, high, crown.orientation_count - 1u);
+    let orientation = sorted[number];
+    // Of few orientations some are named twice.
+    if number > 0u && orientation == sorted[max(number, 1u) - 1u] {
+        return Slot(orientation, 0.0);
+    }
+    return Slot(orientation, select(0.0, 1.0, counts(orientation, direction, deviation)));
+}

@@ -1,0 +1,184 @@
+//! The shaders' formulas of view blending against those in Rust: `blend.wgsl` and `parts.wgsl` are run as they are.
+
+use bevy::math::Vec3;
+use bevy_verdure::plants::Dice;
+use bevy_verdure::prelude::*;
+use bevy_verdure::slicing::blend::{
+    deviation, part_direction, part_slots, part_weight, slots, widest,
+};
+use bevy_verdure::slicing::{Orientation, SlicingShape};
+
+use crate::compute::run;
+
+/// A uniform of what the functions read, and what runs them on cases.
+const ENTRY: &str = r"
+struct Facing { direction: vec3<f32> }
+
+struct Shape {
+    levels: vec4<u32>,
+    switches: vec2<f32>,
+    orientation_count: u32,
+    sphere: u32,
+    vertical: u32,
+    orientations: array<Facing, 32>,
+}
+
+var<private> crown: Shape;
+
+@group(0) @binding(0) var<storage, read> cases: array<array<f32, 40>>;
+@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 24>>;
+
+@compute @workgroup_size(64)
+fn run(@builtin(global_invocation_id) id: vec3<u32>) {
+    let i = id.x;
+    if i >= arrayLength(&cases) {
+        return;
+    }
+    crown.orientation_count = u32(cases[i][0]);
+    crown.vertical = u32(cases[i][1]);
+    crown.sphere = u32(cases[i][2]);
+    for (var k = 0u; k < crown.orientation_count; k += 1u) {
+        crown.orientations[k].direction = vector(i, 11u + 3u * k);
+    }
+    let eye = vector(i, 3u);
+    let most = deviation(cases[i][9], cases[i][10]);
+    let part = part_direction(eye, vector(i, 6u), most);
+    put(i, 0u, part);
+    results[i][3] = most.x;
+    results[i][4] = most.y;
+    let all = slots(eye);
+    for (var k = 0u; k < 3u; k += 1u) {
+        results[i][5u + k] = f32(all[k].orientation);
+        results[i][8u + k] = all[k].weight;
+    }
+    for (var k = 0u; k < PART_SLOTS; k += 1u) {
+        let slot = part_slot(k, eye, most);
+        results[i][11u + 3u * k] = f32(slot.orientation);
+        results[i][12u + 3u * k] = slot.weight;
+        results[i][13u + 3u * k] = part_weight(slot.orientation, part);
+    }
+}
+";
+
+/// A shader as it is where nothing is defined: of lines between conditions, those after `#else`.
+fn undefined(shader: &str) -> String {
+    let (mut lines, mut is_left_out) = (Vec::new(), false);
+    for line in shader.lines() {
+        match line.split_whitespace().next() {
+            Some("#ifdef") => is_left_out = true,
+            Some("#else" | "#endif") => is_left_out = false,
+            _ if !is_left_out => lines.push(line),
+            _ => {}
+        }
+    }
+    lines.join("\n")
+}
+
+fn shape(orientations: &Orientations, vertical: bool) -> SlicingShape {
+    let mut directions = orientations.directions();
+    directions.extend(vertical.then_some(Vec3::Y));
+    SlicingShape {
+        centroid: Vec3::ZERO,
+        radius: 1.0,
+        pixels: 16,
+        levels: vec![5],
+        switches: vec![],
+        correction: 0.5,
+        sphere: matches!(orientations, Orientations::Sphere(_)),
+        vertical,
+        orientations: directions.into_iter().map(Orientation::facing).collect(),
+    }
+}
+
+fn unit(dice: &mut Dice) -> Vec3 {
+    let mut jitter = || dice.jitter(1.0);
+    Vec3::new(jitter(), jitter(), jitter()).normalize_or(Vec3::X)
+}
+
+#[test]
+fn shaders_blend_slicings_as_rust_does() {
+    let mut dice = Dice::new(7);
+    let shapes = [
+        shape(&Orientations::Circle(6), true),
+        shape(&Orientations::Circle(3), false),
+        shape(&Orientations::Sphere(9), false),
+        shape(
+            &Orientations::Arc {
+                count: 2,
+                from: 0.0,
+                to: 0.5,
+            },
+            true,
+        ),
+    ];
+    let mut cases = Vec::new();
+    for shape in &shapes {
+        for _ in 0..3000 {
+            let (eye, ray) = (unit(&mut dice), unit(&mut dice));
+            // Rays near the eye's direction matter most.
+            let ray = (eye + ray * dice.roll()).normalize_or(eye);
+            cases.push((shape, eye, ray, dice.between(0.2, 4.0)));
+        }
+    }
+    let floats: Vec<[f32; 40]> = cases
+        .iter()
+        .map(|(shape, eye, ray, distance)| {
+            let flags = [
+                shape.orientations.len() as f32,
+                f32::from(u8::from(shape.vertical)),
+            ];
+            let sphere = f32::from(u8::from(shape.sphere));
+            let mut floats: Vec<f32> = flags.into_iter().chain([sphere]).collect();
+            floats.extend(eye.to_array());
+            floats.extend(ray.to_array());
+            floats.extend([*distance, widest(shape)]);
+            let directions = shape.orientations.iter();
+            floats.extend(directions.flat_map(|o| o.direction.to_array()));
+            floats.resize(40, 0.0);
+            floats.try_into().expect("40 floats")
+        })
+        .collect();
+    let blend = undefined(include_str!("../../../src/slicing/shaders/blend.wgsl"));
+    let parts = undefined(include_str!("../../../src/slicing/shaders/parts.wgsl"));
+    let results: Vec<[f32; 24]> = run(&[&blend, &parts, ENTRY], &floats);
+    // Where two slicings are equally near, or one is about to count, rounding decides.
+    let (mut decided, total) = (0, cases.len());
+    for ((shape, eye, ray, distance), found) in cases.iter().zip(results) {
+        let most = deviation(*distance, widest(shape));
+        let part = part_direction(*eye, *ray, most);
+        // Arc sines and cosines of the device are good to 2⁻¹¹ or so.
+        assert!((found[3] - most.x).abs() < 1e-3 && (found[4] - most.y).abs() < 1e-3);
+        let cosine = eye.dot(*ray);
+        if (cosine - most.x).abs() > 1e-3 {
+            assert!(
+                Vec3::from_slice(&found[..3]).distance(part) < 4e-3,
+                "{eye} {ray}: {part}"
+            );
+        }
+        let expected = slots(shape, *eye, SliceOrder::Steady);
+        let orientations = |from: usize, step: usize, n: usize| -> Vec<u32> {
+            (0..n).map(|k| found[from + step * k] as u32).collect()
+        };
+        let own = expected.map(|slot| slot.orientation);
+        let parts = part_slots(shape, *eye, most);
+        if orientations(5, 1, 3) != own
+            || orientations(11, 3, 4) != parts.map(|slot| slot.orientation)
+            || (0..4).any(|k| found[12 + 3 * k] != parts[k].weight)
+        {
+            continue;
+        }
+        decided += 1;
+        for (k, slot) in expected.iter().enumerate() {
+            // As much over 15° in radians.
+            assert!((found[8 + k] - slot.weight).abs() < 8e-3, "{eye}: {slot:?}");
+        }
+        for (k, slot) in parts.iter().enumerate() {
+            let weight = part_weight(shape, slot.orientation, part);
+            assert!(
+                (found[13 + 3 * k] - weight).abs() < 2e-2,
+                "{eye} {ray}: {weight}"
+            );
+        }
+    }
+    assert!(decided > total - total / 50, "{decided} of {total}");
+}
