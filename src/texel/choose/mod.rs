@@ -63,7 +63,8 @@ pub enum DirectionRule {
     Quality,
 }
 
-/// What may be seen of slices.
+/// What may be seen of slices. A [`depth`](Self::depth) or [`pixels`](Self::pixels) that is no number above 0 allows nothing to
+/// be seen: as many slices are drawn as there are, unless the other one is content with fewer.
 #[derive(Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Clone, Debug, Default, PartialEq)]
 pub struct TexelQuality {
@@ -88,6 +89,21 @@ impl Default for TexelQuality {
             pixels: 1.0,
             least_angle: LEAST_ANGLE,
         }
+    }
+}
+
+impl TexelQuality {
+    /// Itself, with the least number above 0 that slices can be counted for in place of what is none.
+    fn repaired(mut self) -> Self {
+        for bound in [&mut self.depth, &mut self.pixels] {
+            if bound.is_nan() || *bound < f32::EPSILON {
+                *bound = f32::EPSILON;
+            }
+        }
+        if self.least_angle.is_nan() {
+            self.least_angle = 0.0;
+        }
+        self
     }
 }
 
@@ -151,7 +167,7 @@ pub fn choose(
         return Choice::LeftOut;
     };
     let axis = SliceAxis::ALL[cheapest(seen.cost)];
-    let slices = seen.count(facet, axis, measure, view, quality);
+    let slices = seen.count(facet, axis, measure, view, &quality.repaired());
     Choice::Slices {
         axis,
         exponent: slices.exponent as u8,
@@ -171,11 +187,12 @@ pub fn choose_fading(
         return [None; 3];
     };
     let lots = lots_of_directions(seen.cost);
+    let quality = quality.repaired();
     SliceAxis::ALL.map(|axis| {
         let lots = lots[axis.index()];
         (lots[0] < lots[1]).then(|| AxisSlices {
             lots,
-            ..seen.count(facet, axis, measure, view, quality)
+            ..seen.count(facet, axis, measure, view, &quality)
         })
     })
 }

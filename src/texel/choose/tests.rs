@@ -221,3 +221,27 @@ fn at_the_least_angle_there_are_as_many_slices_as_seen_from_it() {
     assert_eq!(count(25.0, 0.1).0, aslant);
     assert!(aslant > 1);
 }
+
+#[test]
+fn bounds_that_are_no_numbers_above_zero_draw_all_slices() {
+    let view = looking(Vec3::new(0.5, 0.0, -1.0), 3.0);
+    let fewer = choose(&facet(), &measure(), &view, &TexelQuality::default());
+    for bound in [0.0, -1.0, f32::NAN, f32::NEG_INFINITY] {
+        let quality = TexelQuality {
+            depth: bound,
+            pixels: bound,
+            least_angle: bound,
+            ..TexelQuality::default()
+        };
+        let Choice::Slices { exponent, .. } = choose(&facet(), &measure(), &view, &quality) else {
+            panic!("in view");
+        };
+        assert_eq!(exponent, 6, "{bound}");
+        let all = choose_fading(&facet(), &measure(), &view, &quality);
+        for slices in all.into_iter().flatten() {
+            assert_eq!(slices.exponent, 6, "{bound}");
+            assert!(slices.inside.is_finite() && slices.depth > 0.0, "{bound}");
+        }
+    }
+    assert!(matches!(fewer, Choice::Slices { exponent, .. } if exponent < 6));
+}
