@@ -92,6 +92,7 @@ impl Plugin for TexelPlugin {
         load_shader_library!(app, "shaders/facet.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/look.wgsl");
+        load_shader_library!(app, "shaders/inner.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/prepass.wgsl");
 
