@@ -16,6 +16,8 @@ struct Leaf {
     // World space.
     position: vec3<f32>,
     normal: vec3<f32>,
+    // 0 where that is the only one; where it is the mean of many, one less the square of that mean's length.
+    spread: f32,
     // Share of the light from around.
     occlusion: f32,
     // Where on the screen.
@@ -63,10 +65,17 @@ fn sunlight(light: u32, leaf: Leaf, depth: f32) -> f32 {
     return select(1.0, share, is_in);
 }
 
+// The mean of max(n·l, 0) over normals n, of which the mean has this cosine with l, and this spread. That of |n·l| is taken
+// for √(cosine² + spread/4), which is right for a single normal and for normals in all directions.
+fn mean_cosine(cosine: f32, spread: f32) -> f32 {
+    return 0.5 * (cosine + sqrt(cosine * cosine + 0.25 * spread));
+}
+
 // What a directional light adds.
 fn add_light(light: u32, leaf: Leaf, color: vec3<f32>, depth: f32) -> vec3<f32> {
     let l = &lights.directional_lights[light];
-    var share = max(dot(leaf.normal, (*l).direction_to_light), 0.0) / PI;
+    let cosine = dot(leaf.normal, (*l).direction_to_light) * sqrt(1.0 - leaf.spread);
+    var share = mean_cosine(cosine, leaf.spread) / PI;
     if ((*l).flags & DIRECTIONAL_LIGHT_FLAGS_SHADOWS_ENABLED_BIT) != 0u
         && (leaf.flags & MESH_FLAGS_SHADOW_RECEIVER_BIT) != 0u {
         share *= sunlight(light, leaf, depth);

@@ -68,9 +68,13 @@ impl SrgbTable {
 
 /// A unit vector as the colour of a normal map: (n + 1) / 2. Zero and what is no number become up.
 pub fn encode_normal(normal: Vec3) -> [u8; 3] {
-    let normal = normal.try_normalize().unwrap_or(Vec3::Z);
+    encode_mean_normal(normal.try_normalize().unwrap_or(Vec3::Z))
+}
+
+/// The mean of unit vectors, the shorter the more they differ, in the same way.
+pub fn encode_mean_normal(mean: Vec3) -> [u8; 3] {
     let byte = |n: f32| ((n + 1.0) * 127.5).round() as u8;
-    [byte(normal.x), byte(normal.y), byte(normal.z)]
+    [byte(mean.x), byte(mean.y), byte(mean.z)]
 }
 
 /// The unit vector of a colour of a normal map.

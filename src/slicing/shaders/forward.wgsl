@@ -58,7 +58,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
 #else ifdef CROWN_SIMPLE_LIGHT
     let facing = slice_facing(in);
     let leaf = Leaf(
-        in.world_position, facing.normal, facing.occlusion, in.position.xy, in.layer, input.flags);
+        in.world_position, facing.normal, 0.0, facing.occlusion, in.position.xy, in.layer, input.flags);
     var color = vec4(simple_light(leaf, seen.rgb), seen.a);
 #else
     var color = seen;

@@ -116,6 +116,9 @@ pub struct TexelSettings {
     pub quality: TexelQuality,
     /// The same for the views of lights, whose pixels are those of a shadow map. Its `direction` is not used.
     pub shadows: TexelQuality,
+    /// Slices of a finer set in which, within the layer of a slice, is looked up what is seen of it: colours and light are nearly
+    /// those of as many times more slices, outlines stay. From 1, the slice alone, to 16; others are taken for the nearest.
+    pub inner_slices: u32,
     /// The most slices a texel in any direction, rounded down to a power of two. Memory grows with it.
     pub most_slices: u32,
     /// Whether counts and directions of slices fade into one another, pixel by pixel, as the view changes; else they pop.
@@ -138,13 +141,14 @@ impl Default for TexelSettings {
     fn default() -> Self {
         Self {
             quality: TexelQuality::default(),
-            // No gaps, and no more: of what casts a shadow nobody sees the inside.
+            // No gaps, and no more: of what casts a shadow nobody sees the inside. The least angle is the usual one, for slices that
+            // stand far apart along the light are as far above what they show, and would shade it in specks.
             shadows: TexelQuality {
                 depth: 1.0,
                 pixels: 2.0,
-                least_angle: 0.0,
                 ..Default::default()
             },
+            inner_slices: 4,
             most_slices: 256,
             fade: true,
             lighting: PlantLighting::Simple,

@@ -45,7 +45,7 @@ pub(crate) struct TexelKeys {
     volume: VolumeKey,
     lighting: PlantLighting,
     /// Other settings that materials have.
-    settings: [u32; 3],
+    settings: [u32; 4],
 }
 
 impl TexelKeys {
@@ -70,6 +70,7 @@ impl TexelKeys {
                 settings.roughness.to_bits(),
                 settings.reflectance.to_bits(),
                 settings.flexibility.to_bits(),
+                settings.inner_slices,
             ],
         }
     }

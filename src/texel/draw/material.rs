@@ -21,6 +21,9 @@ use super::records::vertex_buffers;
 use crate::lighting::{PlantLighting, SceneLighting};
 use crate::pipeline::{define, embedded_shader, names};
 
+/// The most slices that are looked up in the layer of one.
+const MOST_INNER_SLICES: u32 = 16;
+
 /// What the shaders have of a volume and a surface's settings.
 #[derive(Clone, Copy, Debug, PartialEq, ShaderType)]
 pub(crate) struct TexelsUniform {
@@ -29,6 +32,7 @@ pub(crate) struct TexelsUniform {
     /// Velocity of the wind, and flexibility.
     pub(crate) wind: Vec4,
     reflectance: f32,
+    inner_slices: u32,
 }
 
 impl TexelsUniform {
@@ -38,6 +42,7 @@ impl TexelsUniform {
             roughness: settings.roughness,
             wind: wind.extend(settings.flexibility),
             reflectance: settings.reflectance,
+            inner_slices: settings.inner_slices.clamp(1, MOST_INNER_SLICES),
         }
     }
 }
@@ -160,6 +165,7 @@ impl Material for TexelMaterial {
             (own.lighting.more_suns, "MORE_SUNS"),
             (has_normals, "TEXEL_NORMALS"),
             (own.depth, "TEXEL_DEPTH"),
+            (is_main && !own.depth, "TEXEL_INNER"),
             (key.mesh_key.contains(sun), "TEXEL_DIRECTIONAL_LIGHT"),
             (four, "TEXEL_FOUR_SAMPLES"),
         ]);

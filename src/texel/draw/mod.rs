@@ -34,7 +34,7 @@
 //! of slices, some 64 bytes a voxel.
 //!
 //! # What it does not do
-//! Morphed meshes carry texels where they are at rest. Cutting a volume into slices takes a second or more for
+//! Morphed meshes carry texels where they are at rest. Motion vectors leave skins and wind out. Cutting a volume into slices takes a second or more for
 //! 256×256×64 voxels, in the frame in which it is first shown. A slice across u or v is a quad, so that texels with height
 //! vectors that twist are bent in steps. Deferred cameras draw texels forward. Where a facet needs more slices than there
 //! are, or height vectors differ much over it, gaps may show: subdivide the mesh. Storage buffers in the vertex stage are required, so WebGL 2 is out.
@@ -92,6 +92,7 @@ impl Plugin for TexelPlugin {
         load_shader_library!(app, "shaders/facet.wgsl");
         load_shader_library!(app, "shaders/place.wgsl");
         load_shader_library!(app, "shaders/look.wgsl");
+        load_shader_library!(app, "shaders/inner.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/forward.wgsl");
         bevy::asset::embedded_asset!(app, "shaders/prepass.wgsl");
 

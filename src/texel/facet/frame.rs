@@ -45,6 +45,13 @@ impl TexelFrame {
         }
     }
 
+    /// A direction as changes of u, v and w.
+    pub fn in_frame(&self, direction: Vec3) -> Vec3 {
+        let [u, v, w] = self.edges;
+        let cofactors = Mat3::from_cols(v.cross(w), w.cross(u), u.cross(v));
+        cofactors.transpose() * direction / u.dot(v.cross(w))
+    }
+
     /// A normal of the volume, which is in metres of a box of some `lengths`, in the space of the facet; not unit.
     pub fn transform_normal(&self, normal: Vec3, lengths: Vec3) -> Vec3 {
         let [u, v, w] = self.edges;

@@ -5,15 +5,29 @@
 //! 0 asks for, and they are those that are opaque for the most part (the idea of I. Castaño, *Computing Alpha
 //! Mipmaps*, 2010, with a rank in place of a threshold, so that the number is exact). What rounding takes from one
 //! slice the next one gets, so that thin volumes do not vanish. Ties go round by a lattice of low discrepancy.
+//!
+//! Colours and normals are means over as much in depth, across slices, as pixels are wide: else what is seen aslant would be
+//! filtered along the slices and not across them, and shimmer. Means of normals are the shorter the more these differ, which
+//! is what light is worked out from (`lighting/simple.wgsl`).
 
 use super::super::color::SrgbTable;
 use super::super::parallel;
 use super::{PixelSum, SliceLevel};
 
+/// What pixels of level 0 are in depth.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Depth {
+    /// How many slices lie on the width of one.
+    pub pixel: f32,
+    /// Whether the first slice follows the last.
+    pub repeats: bool,
+}
+
 /// All levels of slices that have `size` pixels at level 0.
 pub(super) fn levels(
     slices: Vec<Vec<PixelSum>>,
     size: [u32; 2],
+    depth: Depth,
     table: &SrgbTable,
 ) -> Vec<SliceLevel> {
     let opaque = slices
@@ -33,7 +47,14 @@ pub(super) fn levels(
             } else {
                 choose(pixels, size, slice, counts[slice])
             };
-            encode(pixels, &chosen, size, table)
+            // Pixels grow by as much along as across.
+            let reach = (0.5 * depth.pixel * (pixels_each as f32).sqrt()) as usize;
+            if reach == 0 {
+                encode(pixels, &chosen, size, table)
+            } else {
+                let thick = thickened(&current, slice, reach, depth.repeats);
+                encode(&thick, &chosen, size, table)
+            }
         });
         let (colors, normals) = encoded.into_iter().flatten().unzip();
         levels.push(SliceLevel {
@@ -99,6 +120,29 @@ fn lattice(x: u32, y: u32, slice: u32) -> u32 {
         .wrapping_add(slice.wrapping_mul(2_654_435_769))
 }
 
+/// Twice the sums of a slice's pixels with those of `reach` slices on either side, of which the outermost count half.
+fn thickened(slices: &[Vec<PixelSum>], slice: usize, reach: usize, repeats: bool) -> Vec<PixelSum> {
+    let count = slices.len();
+    // No slice counts twice.
+    let reach = reach.min(count / 2) as isize;
+    let mut sums = vec![PixelSum::default(); slices[slice].len()];
+    for offset in -reach..=reach {
+        let at = slice as isize + offset;
+        let near = if repeats {
+            at.rem_euclid(count as isize) as usize
+        } else if (0..count as isize).contains(&at) {
+            at as usize
+        } else {
+            continue;
+        };
+        let times = if offset.abs() == reach { 1 } else { 2 };
+        for (sum, pixel) in sums.iter_mut().zip(&slices[near]) {
+            sum.add(pixel, times);
+        }
+    }
+    sums
+}
+
 /// Sums of 2×2 pixels, or of two where one side is a pixel already.
 fn half(pixels: &[PixelSum], size: [u32; 2]) -> Vec<PixelSum> {
     let halved = size.map(|side| (side / 2).max(1));
@@ -111,9 +155,7 @@ fn half(pixels: &[PixelSum], size: [u32; 2]) -> Vec<PixelSum> {
                 for dx in 0..steps[0] {
                     let (x, y) = (column * steps[0] + dx, row * steps[1] + dy);
                     let pixel = &pixels[(y * size[0] + x) as usize];
-                    sum.color += pixel.color;
-                    sum.normal += pixel.normal;
-                    sum.opaque += pixel.opaque;
+                    sum.add(pixel, 1);
                 }
             }
             sums.push(sum);
@@ -139,9 +181,7 @@ fn encode(
             for row in y.saturating_sub(1)..(y + 2).min(height) {
                 for column in x.saturating_sub(1)..(x + 2).min(width) {
                     let near = &pixels[(row * width + column) as usize];
-                    sum.color += near.color;
-                    sum.normal += near.normal;
-                    sum.opaque += near.opaque;
+                    sum.add(near, 1);
                 }
             }
         }

@@ -15,7 +15,7 @@ use bevy::math::Vec3;
 pub(crate) use boxes::{SliceBoxes, Trim, WHOLE};
 
 use super::axis::SliceAxis;
-use super::color::{SrgbTable, decode_normal, encode_normal};
+use super::color::{SrgbTable, decode_normal, encode_mean_normal};
 use super::parallel;
 use super::volume::ReferenceVolume;
 
@@ -79,11 +79,19 @@ impl SliceSet {
                 .map(|&ends| pixel(volume, axis, ends, &table))
                 .collect()
         });
-        let size = axis.in_plane().map(|axis| volume.size()[axis.index()]);
+        let in_plane = axis.in_plane();
+        let size = in_plane.map(|axis| volume.size()[axis.index()]);
+        let [width, height] = in_plane
+            .map(|axis| volume.lengths()[axis.index()] / volume.size()[axis.index()] as f32);
+        let apart = volume.slice_distance(axis, layers.len() as u32);
+        let depth = mips::Depth {
+            pixel: (width * height).sqrt() / apart,
+            repeats: axis != SliceAxis::W,
+        };
         Self {
             axis,
             count: layers.len() as u32,
-            levels: mips::levels(slices, size, &table),
+            levels: mips::levels(slices, size, depth, &table),
         }
     }
 
@@ -161,10 +169,20 @@ fn pixel(
 }
 
 impl PixelSum {
+    /// Adds another one, so many times.
+    fn add(&mut self, other: &Self, times: u32) {
+        self.color += other.color * times as f32;
+        self.normal += other.normal * times as f32;
+        self.opaque += other.opaque * times;
+    }
+
     /// Colour and normal as bytes, without alpha.
     fn encode(&self, table: &SrgbTable) -> ([u8; 3], [u8; 3]) {
         let color = table.encode(self.color / self.opaque.max(1) as f32);
-        (color, encode_normal(self.normal))
+        (
+            color,
+            encode_mean_normal(self.normal / self.opaque.max(1) as f32),
+        )
     }
 }
 

@@ -129,16 +129,67 @@ fn levels_shrink_to_one_pixel_and_keep_their_colour() {
     let set = SliceSet::new(&volume, SliceAxis::W, 4);
     let sizes: Vec<_> = set.levels.iter().map(|level| level.size).collect();
     assert_eq!(sizes, [[32, 8], [16, 4], [8, 2], [4, 1], [2, 1], [1, 1]]);
-    // Colours are places, so that the last is the middle; u is red, linear.
+    // Colours are places, so that the last is the middle; u is red, linear. Of the four slices, the first is mixed with the
+    // second, and with half of the third.
     let table = SrgbTable::new();
     let [r, g, b, a] = set.levels[5].colors[0];
     let middle = table.decode([r, g, b]);
     assert!(
-        (middle - Vec3::new(0.5, 0.5, 0.125)).abs().max_element() < 0.01,
+        (middle - Vec3::new(0.5, 0.5, 0.325)).abs().max_element() < 0.01,
         "{middle}"
     );
     assert_eq!(a, 255);
     assert_eq!(set.bytes(), 4 * (256 + 64 + 16 + 4 + 2 + 1) * 8);
+}
+
+#[test]
+fn pixels_of_a_level_are_means_of_as_much_across_slices_as_along_them() {
+    // Stripes across the slices, of one voxel each, black and white.
+    let size = UVec3::splat(16);
+    let settings = VolumeSettings {
+        lengths: size.as_vec3(),
+        topology: Topology::Tiling,
+        ..VolumeSettings::new(size)
+    };
+    let stripes = |at: Vec3| (1.0, Vec3::splat((at.x * 16.0) as u32 as f32 % 2.0));
+    let volume = from_hypertexture(stripes, &settings, &silent)
+        .unwrap()
+        .volume;
+    let set = SliceSet::new(&volume, SliceAxis::U, 16);
+    let table = SrgbTable::new();
+    for (level, expected) in set.levels.iter().zip([[0.0, 1.0], [0.5, 0.5], [0.5, 0.5]]) {
+        for slice in 0..16 {
+            let [r, g, b, _] = level.colors[level.index(slice, 0, 0)];
+            let shown = table.decode([r, g, b]).x;
+            // Bytes of sRGB are at most 0.01 apart.
+            assert!(
+                (shown - expected[slice as usize % 2]).abs() < 0.01,
+                "{:?} {slice}: {shown}",
+                level.size
+            );
+        }
+    }
+}
+
+#[test]
+fn normals_are_the_shorter_the_more_they_differ() {
+    // The upper half of a ball, seen in the smallest level from above and from a side.
+    let size = UVec3::splat(16);
+    let volume = volume(size, |at| at.distance(Vec3::new(8.0, 8.0, 0.0)) < 6.0);
+    let length = |set: &SliceSet, level: usize, index: usize| {
+        let [x, y, z, _] = set.levels[level].normals[index];
+        let value = |byte: u8| f32::from(byte) / 127.5 - 1.0;
+        Vec3::new(value(x), value(y), value(z)).length()
+    };
+    let above = SliceSet::new(&volume, SliceAxis::W, 1);
+    let top = above.levels[0].index(0, 8, 8);
+    // A byte's step on each of three axes.
+    assert!((length(&above, 0, top) - 1.0).abs() < 3f32.sqrt() / 255.0);
+    // Over a hemisphere, by what one sees from above, the mean is 2/3 long: cos³ over cos². Voxels, and their differences,
+    // make it a tenth more or less.
+    let last = above.levels.len() - 1;
+    let mean = length(&above, last, 0);
+    assert!((mean - 2.0 / 3.0).abs() < 0.07, "{mean}");
 }
 
 #[test]

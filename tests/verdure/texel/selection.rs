@@ -52,6 +52,37 @@ fn wider_gaps_between_slices_save_slices_and_cost_error() {
 }
 
 #[test]
+fn what_is_seen_in_the_layer_of_a_slice_makes_light_as_exact_as_more_slices() {
+    let scene = TexelScene::Sphere;
+    let mut stand = TexelStand::open(scene).expect("the scene is built");
+    let shot = shot(scene);
+    let mut look = |settings: TexelSettings| {
+        stand.set(settings);
+        stand.photograph(&shot).rgb_bytes()
+    };
+    let lighting = PlantLighting::Simple;
+    let reference = look(all_slices(lighting));
+    let quality = TexelQuality {
+        pixels: 2.0,
+        ..default()
+    };
+    let mut error = |inner_slices| {
+        let picture = look(TexelSettings {
+            quality,
+            inner_slices,
+            lighting,
+            ..default()
+        });
+        flip(&reference, &picture)
+    };
+    let (plain, inner, none) = (error(1), error(4), error(0));
+    println!("slices alone {plain:.4}, looked into {inner:.4}");
+    // Outlines stay; what is within them is known four times as finely. At 512 x 384 the error is halved.
+    assert!(inner < 0.75 * plain, "{inner} {plain}");
+    assert_eq!(none, plain, "a slice shows itself at least");
+}
+
+#[test]
 fn what_shows_nothing_of_slices_is_left_out_and_not_missed() {
     // Bushes stand on flat facets: their slices are the same planes, but corners of what is left of them are rounded anew. On
     // the ball of pears height vectors twist, and smaller quads follow them more closely.

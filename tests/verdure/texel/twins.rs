@@ -10,7 +10,7 @@ use crate::compute::run;
 /// What runs the shader on cases.
 const ENTRY: &str = r"
 @group(0) @binding(0) var<storage, read> cases: array<array<f32, 44>>;
-@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 32>>;
+@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 36>>;
 
 @compute @workgroup_size(64)
 fn run(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -38,6 +38,7 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
     put(i, 12u, frame.edges[1]);
     put(i, 15u, frame.edges[2]);
     put(i, 18u, normalize(normal_transform(frame, lengths) * baked));
+    put(i, 27u, in_frame(frame, baked));
     results[i][21] = facet_uv(facet, b).x;
     results[i][22] = facet_uv(facet, b).y;
     results[i][23] = position;
@@ -114,7 +115,7 @@ fn shaders_place_slices_as_rust_does() {
     let cases: Vec<Case> = (0..20_000).map(|_| Case::roll(&mut dice)).collect();
     let floats: Vec<[f32; 44]> = cases.iter().map(Case::floats).collect();
     let shader = include_str!("../../../src/texel/draw/shaders/facet.wgsl");
-    let results: Vec<[f32; 32]> = run(&[shader, ENTRY], &floats);
+    let results: Vec<[f32; 36]> = run(&[shader, ENTRY], &floats);
     for (case, found) in cases.iter().zip(results) {
         let vector = |at: usize| Vec3::from_slice(&found[at..at + 3]);
         let facet = &case.facet;
@@ -139,6 +140,22 @@ fn shaders_place_slices_as_rust_does() {
             let scale = size + edge.length();
             assert!(vector(at).distance(edge) < 1e-5 * scale * lost, "{case:?}");
         }
+        // Taken apart by the same frame, and put together again.
+        let parts = vector(27);
+        let together =
+            frame.edges[0] * parts.x + frame.edges[1] * parts.y + frame.edges[2] * parts.z;
+        let [u, v, w] = frame.edges.map(Vec3::normalize);
+        let bound = 1e-5 * lost / u.dot(v.cross(w)).abs();
+        assert!(
+            together.distance(case.normal) < bound,
+            "{case:?}: {together}"
+        );
+        let scale = parts.length().max(1e-6);
+        let own = frame.in_frame(case.normal);
+        assert!(
+            parts.distance(own) < bound * scale,
+            "{case:?}: {parts} {own}"
+        );
         let normal = frame.transform_normal(case.normal, case.lengths);
         let normal = normal.normalize();
         let [u, v, w] = frame.edges.map(Vec3::normalize);

@@ -41,6 +41,15 @@ fn texel_frame(facet: Facet, b: vec3<f32>, w: f32) -> TexelFrame {
     ));
 }
 
+// A direction as changes of u, v and w.
+fn in_frame(frame: TexelFrame, direction: vec3<f32>) -> vec3<f32> {
+    let u = frame.edges[0];
+    let v = frame.edges[1];
+    let w = frame.edges[2];
+    let cofactors = mat3x3(cross(v, w), cross(w, u), cross(u, v));
+    return (direction * cofactors) / dot(u, cofactors[0]);
+}
+
 // What turns normals of the volume, which are in metres of a box of some `lengths`, to the space of the facet.
 fn normal_transform(frame: TexelFrame, lengths: vec3<f32>) -> mat3x3<f32> {
     let u = frame.edges[0];

@@ -6,11 +6,13 @@
     pbr_types,
 }
 #import bevy_verdure::lighting::simple::{Leaf, simple_light}
-#import bevy_verdure::texel::look::{seen_samples, slice_color, slice_normal, slice_normal_and_alpha}
-#ifdef TEXEL_NORMALS
-#import bevy_verdure::texel::look::world_normal
+#import bevy_verdure::texel::look::{seen_samples, slice_normal_and_alpha}
+#ifdef TEXEL_INNER
+#import bevy_pbr::mesh_view_bindings::view
+#import bevy_verdure::texel::inner::look_inside
+#import bevy_verdure::texel::look::{normal_spread, world_normal}
 #endif
-#import bevy_verdure::texel::place::{Corner, Varying, place_corner, is_orthographic}
+#import bevy_verdure::texel::place::{Corner, Varying, place_corner, is_orthographic, view_direction}
 #import bevy_verdure::texel::types::texels
 
 @vertex
@@ -42,10 +44,12 @@ fn fragment(in: Varying) {
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
     // Slices of another surface may lie at the same depth.
     _ = seen_samples(in, slice_normal_and_alpha(in).a);
-    let seen = slice_color(in);
-    let normal = world_normal(in, slice_normal(in));
+    let inner = look_inside(in);
+    let seen = inner.color;
+    let normal = world_normal(in, inner.normal);
     // Lit and shadowed where the surface is, above the inside that slices show (§4.1).
-    let surface = in.world_position.xyz + normal * in.inside;
+    let way = view_direction(in.world_position.xyz - view.world_position);
+    let surface = in.world_position.xyz + way * inner.along + normal * (in.inside / inner.finer);
     var input = pbr_types::pbr_input_new();
     input.material.base_color = vec4(seen, 1.0);
     input.material.perceptual_roughness = texels.roughness;
@@ -62,7 +66,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     input.V = pbr_functions::calculate_view(in.world_position, input.is_orthographic);
     color = pbr_functions::apply_pbr_lighting(input);
 #else ifdef TEXEL_SIMPLE_LIGHT
-    let leaf = Leaf(surface, normal, 1.0, in.position.xy, 0u, in.flags);
+    let leaf = Leaf(surface, normal, normal_spread(inner.normal), 1.0, in.position.xy, 0u, in.flags);
     color = vec4(simple_light(leaf, seen), 1.0);
 #endif
     color = pbr_functions::main_pass_post_lighting_processing(input, color);

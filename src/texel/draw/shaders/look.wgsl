@@ -4,7 +4,7 @@
 
 #import bevy_pbr::utils::interleaved_gradient_noise
 #import bevy_verdure::texel::place::{AXIS, Varying}
-#import bevy_verdure::texel::types::{color_texture, level_sampler, normal_texture, slice_sampler}
+#import bevy_verdure::texel::types::{level_sampler, normal_texture}
 
 // The volume's normal, and alpha, which colours have too, but here needs no conversion from sRGB.
 fn slice_normal_and_alpha(in: Varying) -> vec4<f32> {
@@ -18,15 +18,6 @@ fn slice_normal_and_alpha(in: Varying) -> vec4<f32> {
 #else
     return textureSample(normal_texture, level_sampler, in.uv, in.layer);
 #endif
-}
-
-// The volume's normal alone.
-fn slice_normal(in: Varying) -> vec3<f32> {
-    return textureSample(normal_texture, slice_sampler, in.uv, in.layer).xyz;
-}
-
-fn slice_color(in: Varying) -> vec3<f32> {
-    return textureSample(color_texture, slice_sampler, in.uv, in.layer).rgb;
 }
 
 // Which samples of a pixel are there, where alpha goes through one half. Pixels of slices are there or not; what
@@ -70,6 +61,12 @@ fn world_normal(in: Varying, baked: vec3<f32>) -> vec3<f32> {
     // Opposite normals may cancel out.
     let is_none = dot(turned, turned) == 0.0;
     return normalize(select(turned, in.normal_from_w, is_none));
+}
+
+// How much normals differ of which a texture has the mean: 0 if they are one, 1 if they point everywhere.
+fn normal_spread(baked: vec3<f32>) -> f32 {
+    let mean = baked * 2.0 - 1.0;
+    return saturate(1.0 - dot(mean, mean));
 }
 
 #endif

@@ -4,7 +4,7 @@
 
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_render::globals::Globals
-#import bevy_verdure::texel::facet::{Facet, TexelFrame, facet_point, facet_uv, normal_transform, slice_line_point, slice_position, smooth_frame, texel_frame}
+#import bevy_verdure::texel::facet::{Facet, TexelFrame, facet_point, facet_uv, normal_transform, slice_line_point, slice_position, in_frame, smooth_frame, texel_frame}
 #import bevy_verdure::texel::types::{facets, normal_texture, texels}
 #import bevy_verdure::wind::sway
 
@@ -51,6 +51,10 @@ struct Varying {
     @location(5) normal_from_v: vec3<f32>,
     @location(6) normal_from_w: vec3<f32>,
 #endif
+#ifdef TEXEL_INNER
+    // The way of the view in the volume: changes of u, v and w.
+    @location(11) view_in_volume: vec3<f32>,
+#endif
 #ifdef MOTION_VECTOR_PREPASS
     @location(7) previous_world_position: vec3<f32>,
 #endif
@@ -64,6 +68,11 @@ struct Varying {
 
 fn is_orthographic() -> bool {
     return view.clip_from_view[3].w == 1.0;
+}
+
+// The way of the view at a place that is seen from the eye so, of any length.
+fn view_direction(from_eye: vec3<f32>) -> vec3<f32> {
+    return select(from_eye, -view.world_from_view[2].xyz, is_orthographic());
 }
 
 // A facet from the eye, so that one 10 km from the origin is as steady as one at the origin.
@@ -168,11 +177,15 @@ fn place_corner(in: Corner) -> Varying {
 #ifdef TEXEL_NORMALS
     let record = facets[in.slice.x];
     let normal = cofactors * (mat3x3(record.normals[0].xyz, record.normals[1].xyz, record.normals[2].xyz) * b) * sign(det);
-    let frame = smooth_frame(texel_frame(facet, b, w), normal / max(length(normal), 1e-30));
+    let own_frame = texel_frame(facet, b, w);
+    let frame = smooth_frame(own_frame, normal / max(length(normal), 1e-30));
     let to_world = normal_transform(frame, texels.lengths);
     out.normal_from_u = to_world[0];
     out.normal_from_v = to_world[1];
     out.normal_from_w = to_world[2];
+#ifdef TEXEL_INNER
+    out.view_in_volume = in_frame(own_frame, view_direction(from_eye));
+#endif
 #endif
     return out;
 }

@@ -16,6 +16,8 @@ struct Texels {
     // xyz: velocity of the wind; w: how far it moves the top, in heights, for each metre a second.
     wind: vec4<f32>,
     reflectance: f32,
+    // How many slices are looked up in the layer of one.
+    inner_slices: u32,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;
