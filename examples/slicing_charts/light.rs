@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use bevy_verdure::lab::charts::{Axis, Chart, Series};
 use bevy_verdure::prelude::*;
 
-use super::accuracy::{planted, uproot};
+use super::accuracy::{planted, shot, uproot};
 use super::brightness::{brightness, eyes};
 use super::lab::{Drawn, Lab};
 
@@ -50,6 +50,48 @@ fn measure(lab: &mut Lab, drawn: &Drawn, distances: &[f32]) -> Vec<[f64; 4]> {
     }
     uproot(lab, &crown);
     all
+}
+
+/// The share of what is behind that a crown covers, over the mesh's, by elevation of the eye.
+pub fn cover_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
+    let slicing = lab.bake(&BakeSettings::default())?;
+    let elevations = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0];
+    let distances = [8.0, 15.0, 25.0];
+    let camera = lab.studio.camera();
+    lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
+    let ways = [Drawn::Mesh, Drawn::Slicing(slicing, default())];
+    let [mesh, sliced] = ways.map(|drawn| {
+        let crown = planted(lab, &drawn, &[Transform::IDENTITY]);
+        let places = distances.iter().flat_map(|d| elevations.map(|e| (*d, e)));
+        let covers: Vec<f64> = places
+            .map(|(distance, elevation)| {
+                let azimuths = [3.0, 123.0, 270.0];
+                let shots = azimuths.map(|azimuth| shot(lab, distance, azimuth, elevation));
+                let black = brightness(lab, &shots, Color::BLACK);
+                1.0 - (brightness(lab, &shots, Color::WHITE) - black)
+            })
+            .collect();
+        uproot(lab, &crown);
+        covers
+    });
+    lab.studio.world().entity_mut(camera).insert(Msaa::Off);
+    let ratios: Vec<f64> = mesh.iter().zip(&sliced).map(|(mesh, s)| s / mesh).collect();
+    let series = distances.iter().zip(ratios.chunks(elevations.len()));
+    let series = series.map(|(distance, ratios)| {
+        println!("{distance} m: {ratios:.3?}");
+        let points = elevations
+            .iter()
+            .map(|e| f64::from(*e))
+            .zip(ratios.to_vec());
+        Series::line(format!("{distance} m"), points)
+    });
+    Ok(Chart {
+        title: "Cover of a crown of slices, over the mesh's".into(),
+        series: series.collect(),
+        subtitle: lab.adapter.clone(),
+        x: Axis::linear("elevation (degrees)"),
+        y: Axis::linear("ratio to the mesh"),
+    })
 }
 
 pub fn against_distance(lab: &mut Lab) -> Result<Chart, String> {

@@ -67,6 +67,7 @@ const EXPERIMENTS: [Experiment; 18] = [
     ("slicing_discrepancy", discrepancy::against_angle),
     ("slicing_brightness", brightness::against_background),
     ("slicing_light", light::against_distance),
+    ("slicing_cover", light::cover_by_elevation),
     ("slicing_inside", near::inside),
     ("slicing_perspective", near::perspective),
     ("slicing_intersecting", intersecting::against_overlap),

@@ -32,14 +32,14 @@
 //!   correction f_c for the whole crown.
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
 //! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
+//! * Up close the discrepancy angle is taken part by part ([`DiscrepancyAngle`]), which §4 proposes.
 //! * Levels of fewer slices take over with distance, faded into one another.
 //! * Directional lights see one slice that faces them, whose leaves lie at depths by chance ([`blend::first_leaf`]).
 //! * Right up close a crown can give over to its mesh ([`close_up()`]), which §4 asks for.
 //! * Wind moves near slices more than far ones; see [`wind`](crate::wind).
 //!
 //! # What it does not do
-//! Crowns that intersect are not sorted slice by slice. One discrepancy angle holds for a whole crown, so that within a
-//! few metres slices show where no mesh takes over. Storage buffers in the vertex stage are required, so
+//! Crowns that intersect are not sorted slice by slice. Within a few metres slices show where no mesh takes over. Storage buffers in the vertex stage are required, so
 //! WebGL 2 is out.
 
 pub mod bake;

@@ -80,10 +80,11 @@ fn bake_shape(
     mesh.check()?;
     settings.check()?;
     let shape = shape(mesh, settings, directions);
-    let light = match settings.occlusion {
-        true => occlusion::light_from_around(mesh),
-        false => vec![1.0; mesh.triangles.len()],
-    };
+    let share = settings.occlusion;
+    let light: Vec<f32> = occlusion::light_from_around(mesh)
+        .into_iter()
+        .map(|light| 1.0 - share * (1.0 - light))
+        .collect();
     let jobs = jobs(&shape);
     let picture = |&(orientation, slice, count): &(usize, u32, u32)| {
         let projection = Projection {

@@ -27,8 +27,9 @@ pub struct BakeSettings {
     pub samples: u32,
     /// m_s of §2.3, 0 to 4: how much more opaque blended slicings are drawn in the paper's order, for their brightness.
     pub correction: f32,
-    /// Whether light from around is held back by the leaves it passes.
-    pub occlusion: bool,
+    /// How much light from around is held back by the leaves it passes, from 0 to 1: 0 not at all, as meshes are lit in Bevy,
+    /// which is nearest to these; 1 as if leaves were black. Half-way, the default, is still darker within.
+    pub occlusion: f32,
     /// Threads to bake with; 0 for as many as the machine has cores. The result does not depend on it.
     pub threads: usize,
 }
@@ -43,7 +44,7 @@ impl Default for BakeSettings {
             pixels: 256,
             samples: 4,
             correction: 0.5,
-            occlusion: true,
+            occlusion: 0.5,
             threads: 0,
         }
     }
@@ -132,6 +133,9 @@ impl BakeSettings {
                 self.correction.to_string(),
                 "use 0 to 4; the paper has 0.5",
             );
+        }
+        if !(0.0..=1.0).contains(&self.occlusion) {
+            return refuse("occlusion", self.occlusion.to_string(), "use 0 to 1");
         }
         let orientations = count as usize + usize::from(self.has_vertical());
         let layers = orientations * self.levels.iter().sum::<u32>() as usize;

@@ -38,10 +38,12 @@ pub fn widest(shape: &SlicingShape) -> f32 {
 }
 
 /// Cosine and sine of the angle by which directions to the eye may differ from that from the centroid, for an eye so many radii away:
-/// all that a crown is seen under from near by, and none from far.
-pub fn deviation(distance: f32, widest: f32) -> Vec2 {
+/// all that a crown is seen under from near by, and none from far. `level` is the cosine of the eye's elevation: as it rises, a cone
+/// round its direction turns by more and more of azimuth, and is kept to what orientations round the circle allow for.
+pub fn deviation(distance: f32, widest: f32, level: f32) -> Vec2 {
     let seen = (1.0 / distance.max(1.0)).asin();
-    let angle = seen.min(widest) * (1.0 - smooth(PARTS[0], PARTS[1], distance));
+    let angle =
+        seen.min((widest.sin() * level).asin()) * (1.0 - smooth(PARTS[0], PARTS[1], distance));
     Vec2::new(angle.cos(), angle.sin())
 }
 

@@ -4,7 +4,7 @@
 
 #import bevy_verdure::slicing::types::Orientation
 
-const DENSEST: f32 = 0.8;
+const DENSEST: f32 = 0.985;
 
 // How far light comes before it meets a leaf, from 0 to 1.
 fn first_leaf(lot: f32, alpha: f32) -> f32 {

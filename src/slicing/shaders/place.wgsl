@@ -160,7 +160,7 @@ fn place_corner(in: Corner) -> Varying {
 #else
     let apparent = apparent_distance(in.instance_index, distance);
     // From far, all parts are seen from one direction.
-    let differ = deviation(select(distance, 1e9, is_orthographic()), crown.widest);
+    let differ = deviation(select(distance, 1e9, is_orthographic()), crown.widest, length(direction.xz));
     let slice = drawn_slice(in.corner >> 3u, direction, apparent, differ);
 #endif
     if slice.opacity <= 0.0 {

@@ -1,6 +1,6 @@
 //! The shaders' formulas of view blending against those in Rust: `blend.wgsl` and `parts.wgsl` are run as they are.
 
-use bevy::math::Vec3;
+use bevy::math::{Vec3, Vec3Swizzles};
 use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::blend::{
@@ -41,7 +41,7 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
         crown.orientations[k].direction = vector(i, 11u + 3u * k);
     }
     let eye = vector(i, 3u);
-    let most = deviation(cases[i][9], cases[i][10]);
+    let most = deviation(cases[i][9], cases[i][10], length(eye.xz));
     let part = part_direction(eye, vector(i, 6u), most);
     put(i, 0u, part);
     results[i][3] = most.x;
@@ -144,7 +144,7 @@ fn shaders_blend_slicings_as_rust_does() {
     // Where two slicings are equally near, or one is about to count, rounding decides.
     let (mut decided, total) = (0, cases.len());
     for ((shape, eye, ray, distance), found) in cases.iter().zip(results) {
-        let most = deviation(*distance, widest(shape));
+        let most = deviation(*distance, widest(shape), eye.xz().length());
         let part = part_direction(*eye, *ray, most);
         // Arc sines and cosines of the device are good to 2⁻¹¹ or so.
         assert!((found[3] - most.x).abs() < 1e-3 && (found[4] - most.y).abs() < 1e-3);
