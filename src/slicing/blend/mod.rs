@@ -12,7 +12,10 @@ mod weights;
 
 pub use cast::{DENSEST, cast_slices, facing, first_leaf};
 pub use detail::{FOCAL, levels};
-pub use parts::{PART_SLOTS, PARTS, deviation, part_direction, part_slots, part_weight, widest};
+pub use parts::{
+    PART_SLOTS, PARTS, deviation, part_direction, part_slots, part_turn, part_weight,
+    turned_weight, widest,
+};
 pub use weights::{ALONE, SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slots};
 
 use super::slicing::SlicingShape;

@@ -65,6 +65,49 @@ pub fn part_weight(shape: &SlicingShape, orientation: u32, direction: Vec3) -> f
     own.map(|slot| slot.weight).sum()
 }
 
+/// Cosine of the angle between two orientations beyond which neither is beside the other.
+const OPPOSITE: f32 = -0.9999;
+
+/// Where a direction (unit) to the eye is among the orientations, for one of them: the discrepancy angle over half of the angle to
+/// the next orientation on that side, and the share that the vertical slicing takes of it, or leaves it. Over a slice these go
+/// nearly evenly, so that they are worked out at its corners; [`turned_weight`] makes [`part_weight`] of them at each place.
+pub fn part_turn(shape: &SlicingShape, orientation: u32, direction: Vec3) -> Vec2 {
+    let rise = if shape.vertical {
+        smooth(RISE[0], RISE[1], direction.y.abs())
+    } else {
+        0.0
+    };
+    let towards = shape.orientations[orientation as usize].direction;
+    if towards.y.abs() > 0.999 {
+        return Vec2::new(0.0, 1.0 - rise);
+    }
+    let count =
+        shape.orientations.len() - usize::from(shape.vertical && shape.orientations.len() > 1);
+    let right = Vec3::new(towards.z, 0.0, -towards.x);
+    let discrepancy = direction.dot(right).atan2(direction.dot(towards));
+    let (mut next, mut greatest) = (0.0_f32, -2.0_f32);
+    for other in &shape.orientations[..count] {
+        greatest = greatest.max(other.direction.dot(direction));
+        let cosine = other.direction.dot(towards);
+        let angle = other.direction.dot(right).atan2(cosine);
+        let is_on_that_side = angle * discrepancy > 0.0 && cosine > OPPOSITE;
+        if is_on_that_side && (next == 0.0 || angle.abs() < next) {
+            next = angle.abs();
+        }
+    }
+    if next == 0.0 {
+        // The last of an arc, or alone.
+        let is_nearest = direction.dot(towards) >= greatest;
+        return Vec2::new(if is_nearest { 0.0 } else { 2.0 }, rise);
+    }
+    Vec2::new(discrepancy / (0.5 * next), rise)
+}
+
+/// The weight that a [`part_turn`] tells of: from the swap, where half is left, as far to either side as to where a slicing is alone.
+pub fn turned_weight(turn: Vec2) -> f32 {
+    (1.5 - turn.x.abs()).clamp(0.0, 1.0) * (1.0 - turn.y)
+}
+
 /// Whether an orientation counts for any part.
 fn counts(shape: &SlicingShape, orientation: u32, direction: Vec3, deviation: Vec2) -> bool {
     let towards = shape.orientations[orientation as usize].direction;

@@ -338,6 +338,36 @@ fn of_what_any_part_shows_nothing_is_left_out_or_seen_from_behind() {
 }
 
 #[test]
+fn weights_told_by_turns_are_those_of_directions() {
+    for shape in [
+        shape(Orientations::Circle(1), true),
+        shape(Orientations::Circle(2), true),
+        shape(Orientations::Circle(3), false),
+        shape(Orientations::Circle(24), true),
+        shape(
+            Orientations::Arc {
+                count: 3,
+                from: 0.0,
+                to: 0.9,
+            },
+            true,
+        ),
+    ] {
+        for direction in Orientations::Sphere(999).directions() {
+            for orientation in 0..shape.orientations.len() as u32 {
+                let turned = turned_weight(part_turn(&shape, orientation, direction));
+                let weight = part_weight(&shape, orientation, direction);
+                // In single precision, of angles over 7° at least.
+                assert!(
+                    (turned - weight).abs() < 1e-3,
+                    "{shape:?} {orientation} {direction}: {turned} {weight}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
 fn parts_differ_by_no_more_than_they_are_seen_under_and_from_far_by_nothing() {
     let shape = shape(Orientations::Circle(6), true);
     let angle = |distance: f32| {

@@ -2,10 +2,9 @@
 
 // The fragment stage of all passes: what a slice looks like at a place.
 
-#import bevy_verdure::slicing::types::{crown, orientation_of, color_texture, normal_texture, slice_sampler}
-#import bevy_pbr::mesh_view_bindings::view
+#import bevy_verdure::slicing::types::{crown, color_texture, normal_texture, slice_sampler}
 #import bevy_verdure::slicing::blend::covered
-#import bevy_verdure::slicing::parts::{part_direction, part_weight}
+#import bevy_verdure::slicing::parts::turned_weight
 #import bevy_verdure::slicing::place::Varying
 
 struct Facing {
@@ -24,10 +23,7 @@ fn slice_color(in: Varying) -> vec4<f32> {
 #else
     var color = textureSampleLevel(color_texture, slice_sampler, in.uv, in.layer, in.lod);
 #ifdef CROWN_PARTS
-    let to_eye = view.world_position - in.world_position;
-    let ray = normalize(vec3(dot(in.turn_x, to_eye), dot(in.turn_y, to_eye), dot(in.turn_z, to_eye)));
-    let weight = part_weight(orientation_of(in.layer), part_direction(in.direction, ray, in.differ));
-    color.a = covered(color.a, weight * in.opacity);
+    color.a = covered(color.a, turned_weight(in.turn) * in.opacity);
 #else ifdef CROWN_PAPER_ORDER
     color.a *= in.opacity;
 #else

@@ -5,6 +5,9 @@
 #import bevy_verdure::slicing::types::crown
 #import bevy_verdure::slicing::blend::{RISE, Slot, slots}
 
+// Cosine of the angle between two orientations beyond which neither is beside the other.
+const OPPOSITE: f32 = -0.9999;
+
 const PART_SLOTS: u32 = 4u;
 const PARTS: vec2<f32> = vec2(2.0, 3.0);
 
@@ -33,6 +36,37 @@ fn part_weight(orientation: u32, direction: vec3<f32>) -> f32 {
         weight += select(0.0, all[k].weight, all[k].orientation == orientation);
     }
     return weight;
+}
+
+// Where a direction is among orientations, for one of them, of which the weight can be told by `turned_weight`.
+fn part_turn(orientation: u32, direction: vec3<f32>) -> vec2<f32> {
+    let rise = select(0.0, smoothstep(RISE.x, RISE.y, abs(direction.y)), crown.vertical != 0u);
+    let towards = crown.orientations[orientation].direction;
+    if abs(towards.y) > 0.999 {
+        return vec2(0.0, 1.0 - rise);
+    }
+    let count = crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
+    let right = vec3(towards.z, 0.0, -towards.x);
+    let discrepancy = atan2(dot(direction, right), dot(direction, towards));
+    var next = 0.0;
+    var greatest = -2.0;
+    for (var i = 0u; i < count; i += 1u) {
+        let other = crown.orientations[i].direction;
+        greatest = max(greatest, dot(other, direction));
+        let cosine = dot(other, towards);
+        let angle = atan2(dot(other, right), cosine);
+        if angle * discrepancy > 0.0 && cosine > OPPOSITE && (next == 0.0 || abs(angle) < next) {
+            next = abs(angle);
+        }
+    }
+    if next == 0.0 {
+        return vec2(select(2.0, 0.0, dot(direction, towards) >= greatest), rise);
+    }
+    return vec2(discrepancy / (0.5 * next), rise);
+}
+
+fn turned_weight(turn: vec2<f32>) -> f32 {
+    return saturate(1.5 - abs(turn.x)) * (1.0 - turn.y);
 }
 
 // Whether an orientation counts for any part.

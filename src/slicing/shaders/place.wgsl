@@ -10,7 +10,7 @@
 #import bevy_verdure::slicing::blend::FOCAL
 #import bevy_verdure::slicing::drawn::{cast_slice, drawn_slice}
 #import bevy_verdure::slicing::cast::facing
-#import bevy_verdure::slicing::parts::deviation
+#import bevy_verdure::slicing::parts::{deviation, part_direction, part_turn}
 #import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
 
@@ -59,9 +59,8 @@ struct Varying {
     @location(8) @interpolate(flat) deep: f32,
 #else
 #ifdef CROWN_PARTS
-    // Direction to the eye from the centroid, local, and how much that from a part may differ.
-    @location(14) @interpolate(flat) direction: vec3<f32>,
-    @location(15) @interpolate(flat) differ: vec2<f32>,
+    // Where the direction from a part to the eye is among orientations.
+    @location(14) turn: vec2<f32>,
 #endif
     // In linear light.
     @location(5) @interpolate(flat) tint: vec3<f32>,
@@ -230,8 +229,8 @@ fn place_corner(in: Corner) -> Varying {
 #else
     out.lod = mip_level(max(size.x, size.y), length(eye * crown.radius - o.direction * depth), in.instance_index);
 #ifdef CROWN_PARTS
-    out.direction = direction;
-    out.differ = differ;
+    let ray = normalize(eye * crown.radius - (local - crown.centroid));
+    out.turn = part_turn(slice.orientation, part_direction(direction, ray, differ));
 #endif
     out.tint = tint(tag);
     out.world_position = from_eye + view.world_position;

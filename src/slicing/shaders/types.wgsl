@@ -39,15 +39,6 @@ struct Crown {
 @group(#{MATERIAL_BIND_GROUP}) @binding(3) var slice_sampler: sampler;
 @group(#{MATERIAL_BIND_GROUP}) @binding(4) var normal_texture: texture_2d_array<f32>;
 
-// Which orientation a layer is of.
-fn orientation_of(layer: u32) -> u32 {
-    let first = crown.levels.x * crown.orientation_count;
-    let second = first + crown.levels.y * crown.orientation_count;
-    if layer < first { return layer / crown.levels.x; }
-    if layer < second { return (layer - first) / crown.levels.y; }
-    return (layer - second) / max(crown.levels.z, 1u);
-}
-
 fn first_layer(level: u32, orientation: u32) -> u32 {
     var before = 0u;
     if level > 0u { before += crown.levels.x; }

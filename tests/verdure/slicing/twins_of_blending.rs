@@ -4,7 +4,7 @@ use bevy::math::{Vec3, Vec3Swizzles};
 use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::blend::{
-    deviation, part_direction, part_slots, part_weight, slots, widest,
+    deviation, part_direction, part_slots, part_turn, slots, turned_weight, widest,
 };
 use bevy_verdure::slicing::{Orientation, SlicingShape};
 
@@ -55,7 +55,7 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
         let slot = part_slot(k, eye, most);
         results[i][11u + 3u * k] = f32(slot.orientation);
         results[i][12u + 3u * k] = slot.weight;
-        results[i][13u + 3u * k] = part_weight(slot.orientation, part);
+        results[i][13u + 3u * k] = turned_weight(part_turn(slot.orientation, part));
     }
 }
 ";
@@ -173,7 +173,7 @@ fn shaders_blend_slicings_as_rust_does() {
             assert!((found[8 + k] - slot.weight).abs() < 8e-3, "{eye}: {slot:?}");
         }
         for (k, slot) in parts.iter().enumerate() {
-            let weight = part_weight(shape, slot.orientation, part);
+            let weight = turned_weight(part_turn(shape, slot.orientation, part));
             assert!(
                 (found[13 + 3 * k] - weight).abs() < 2e-2,
                 "{eye} {ray}: {weight}"
