@@ -16,7 +16,9 @@ pub use parts::{
     PART_SLOTS, PARTS, deviation, part_direction, part_slots, part_turn, part_weight,
     turned_weight, widest,
 };
-pub use weights::{ALONE, SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slots};
+pub use weights::{
+    ALONE, SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slanted, slots,
+};
 
 use super::slicing::SlicingShape;
 
@@ -42,7 +44,7 @@ pub struct DrawnSlice {
     /// Which slice of it, the first being furthest along the direction.
     pub index: u32,
     /// What becomes of its pixels' opacities: in the paper's order they are multiplied with this, α f_c; else this is α,
-    /// and they are what [`covered`] says.
+    /// [`slanted`], and they are what [`covered`] says.
     pub opacity: f32,
 }
 
@@ -65,17 +67,15 @@ pub fn drawn_slices(
         for rank in 0..count {
             for slot in slots {
                 let weight = slot.weight * share;
+                let towards = shape.orientations[slot.orientation as usize].direction;
+                let faces = towards.dot(direction) >= 0.0;
                 let opacity = match order {
-                    SliceOrder::Steady => weight,
+                    SliceOrder::Steady => slanted(shape, weight, towards, direction),
                     SliceOrder::Paper => corrected(weight, greatest, shape.correction),
                 };
                 if opacity <= 0.0 || rank < left_out {
                     continue;
                 }
-                let faces = shape.orientations[slot.orientation as usize]
-                    .direction
-                    .dot(direction)
-                    >= 0.0;
                 drawn.push(DrawnSlice {
                     orientation: slot.orientation,
                     level: level as u32,

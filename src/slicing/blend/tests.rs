@@ -181,6 +181,24 @@ fn levels_of_detail_take_over_with_distance_and_the_vertical_slicing_from_above_
 }
 
 #[test]
+fn upright_slices_count_for_the_leaves_between_them_from_above() {
+    let shape = shape(Orientations::Circle(6), true);
+    let eye = Vec3::new(0.0, 0.49, 0.49_f32.acos().sin()).normalize();
+    let eye = Vec3::new(eye.z, eye.y, 0.0) * 5.0 * shape.radius;
+    // Just below where the vertical slicing joins in: the same slices as from the side, of as much more weight.
+    let (above, beside) = (draw(&shape, eye), draw(&shape, eye.with_y(0.0)));
+    assert_eq!(above.len(), beside.len());
+    for (above, beside) in above.iter().zip(&beside) {
+        assert_eq!(
+            (above.orientation, above.index),
+            (beside.orientation, beside.index)
+        );
+        let level = eye.with_y(0.0).length() / eye.length();
+        assert!((above.opacity * level - beside.opacity).abs() < 1e-5);
+    }
+}
+
+#[test]
 fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
     let shape = shape(Orientations::Circle(6), true);
     for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {

@@ -1,6 +1,6 @@
 //! How much each slicing counts for an eye: the discrepancy angle (§2.3), and what several slicings cover together.
 
-use bevy::math::Vec3;
+use bevy::math::{Vec2, Vec3};
 
 use super::{SliceOrder, smooth};
 use crate::slicing::slicing::SlicingShape;
@@ -112,6 +112,16 @@ pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS
 /// The corrected opacity of a slicing of weight α: f_c α, where f_c = 1 + m_s (1 − α_p), α_p being the greatest weight.
 pub fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
     (weight * (1.0 + correction * (1.0 - greatest))).min(1.0)
+}
+
+/// The weight of a slicing whose slices look `towards` a direction, for an eye in `direction` (both unit). From above and below, light
+/// meets on its way through a crown as many leaves as ever, but of upright slices as many fewer as the cosine of the elevation says.
+/// So each counts for that many more (Beer and Lambert), up to twice; further up the vertical slicing is alone.
+pub fn slanted(shape: &SlicingShape, weight: f32, towards: Vec3, direction: Vec3) -> f32 {
+    if shape.sphere || towards.y.abs() >= 0.01 {
+        return weight;
+    }
+    weight / Vec2::new(direction.x, direction.z).length().max(0.5)
 }
 
 /// The greatest opacity of a place, in a picture in which it is 1: of more, a slicing that fades in would be there at once.

@@ -119,6 +119,11 @@ fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
     return min(weight * (1.0 + correction * (1.0 - greatest)), 1.0);
 }
 
+fn slanted(weight: f32, towards: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let level = length(direction.xz);
+    return weight / select(1.0, max(level, 0.5), crown.sphere == 0u && abs(towards.y) < 0.01);
+}
+
 fn covered(alpha: f32, weight: f32) -> f32 {
     return 1.0 - pow(1.0 - SUREST * alpha, weight);
 }

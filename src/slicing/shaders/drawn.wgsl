@@ -3,7 +3,7 @@
 // Which slices are drawn, and which cast shadows: what becomes of the slicings' weights (blend/mod.rs, blend/cast.rs).
 
 #import bevy_verdure::slicing::types::crown
-#import bevy_verdure::slicing::blend::{SLOTS, corrected, levels, slots}
+#import bevy_verdure::slicing::blend::{SLOTS, corrected, levels, slanted, slots}
 #import bevy_verdure::slicing::parts::{PART_SLOTS, part_slot}
 
 #ifdef CROWN_PARTS
@@ -54,7 +54,8 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32, deviation: vec2
         slot = slots[2];
     }
 #endif
-    let faces = dot(crown.orientations[slot.orientation].direction, direction) >= 0.0;
+    let towards = crown.orientations[slot.orientation].direction;
+    let faces = dot(towards, direction) >= 0.0;
     return DrawnSlice(
         slot.orientation,
         level,
@@ -62,7 +63,7 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32, deviation: vec2
 #ifdef CROWN_PAPER_ORDER
         corrected(slot.weight * share, greatest, crown.correction),
 #else
-        slot.weight * share,
+        slanted(slot.weight * share, towards, direction),
 #endif
     );
 }

@@ -4,7 +4,7 @@ use bevy::math::{Vec3, Vec3Swizzles};
 use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::blend::{
-    deviation, part_direction, part_slots, part_turn, slots, turned_weight, widest,
+    deviation, part_direction, part_slots, part_turn, slanted, slots, turned_weight, widest,
 };
 use bevy_verdure::slicing::{Orientation, SlicingShape};
 
@@ -57,6 +57,7 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
         results[i][12u + 3u * k] = slot.weight;
         results[i][13u + 3u * k] = turned_weight(part_turn(slot.orientation, part));
     }
+    results[i][23] = slanted(0.7, crown.orientations[0].direction, eye);
 }
 ";
 
@@ -155,6 +156,8 @@ fn shaders_blend_slicings_as_rust_does() {
                 "{eye} {ray}: {part}"
             );
         }
+        let weight = slanted(shape, 0.7, shape.orientations[0].direction, *eye);
+        assert!((found[23] - weight).abs() < 1e-5, "{eye}: {weight}");
         let expected = slots(shape, *eye, SliceOrder::Steady);
         let orientations = |from: usize, step: usize, n: usize| -> Vec<u32> {
             (0..n).map(|k| found[from + step * k] as u32).collect()
