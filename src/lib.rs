@@ -9,7 +9,7 @@
 //! | [`slicing`] | sparse parts: crowns of twigs and leaves, baked into blended slices | `wind`, `lighting` |
 //! | [`texel`] | repeated cover: a volume in slices, mapped on a surface | `wind`, `lighting` |
 //! | [`wind`] | the wind of a scene, in which crowns and texels sway | |
-//! | [`lighting`] | what lights crowns and texels: as Bevy does, or at less cost | |
+//! | [`lighting`] | what lights crowns, texels and wood: as Bevy does, or at less cost | |
 //! | [`plants`] | skeletons grown from a seed: palms, pines, cacti, and scenes of them | `skeleton` |
 //! | `lab` (a feature) | measuring: headless app, reference ray caster, image error | all |
 //!

@@ -1,4 +1,5 @@
-//! What lights the sparse and the repeated parts of plants, crowns and texels, and the solid ones beside them: as Bevy lights all else, or at less cost.
+//! What lights the sparse and the repeated parts of plants, crowns and texels, and the solid ones beside them: as Bevy lights
+//! all else, or at less cost.
 //!
 //! [`PlantLighting::Simple`] (`simple.wgsl`) is right only under directional lights and ambient light. So plants that ask for
 //! it are lit in full while the scene has any other light (`scene.rs`). Their wood can be lit alike (`material.rs`).

@@ -7,8 +7,7 @@ use crate::slicing::orientation::Orientation;
 use crate::slicing::slicing::SlicingShape;
 
 /// The greatest opacity of a place in the eyes of the light, from 0 to 1: an opaque place does not tell how many leaves lie
-/// behind one
-/// another. With this one, four, crowns have as much sun as their meshes; with 0.8, half as much more.
+/// behind one another. With this one, which is four, crowns have as much sun as their meshes; with 0.8, half as much more.
 pub const DENSEST: f32 = 0.985;
 
 /// The slices that cast shadows for light from `direction` (unit), that of a directional light: those of the nearest

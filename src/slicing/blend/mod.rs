@@ -1,7 +1,8 @@
 //! View blending (§2.3): which slicings are drawn for an eye, how opaque, and in what order.
 //!
-//! `weights.rs` finds the slicings and their weights, `parts.rs` how they differ from part to part up close, `detail.rs` the level, `cast.rs` what casts shadows; here
-//! they become slices, far to near. `shaders/blend.wgsl` and `shaders/cast.wgsl` have the same functions by the same names.
+//! `weights.rs` finds the slicings and their weights, `parts.rs` how they differ from part to part up close, `detail.rs` the
+//! level, `cast.rs` what casts shadows; here they become slices, far to near. In `shaders`, `blend.wgsl`, `parts.wgsl`,
+//! `cast.wgsl` and, for what becomes of them, `drawn.wgsl` have the same functions by the same names.
 
 use bevy::math::Vec3;
 

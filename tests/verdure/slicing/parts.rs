@@ -34,7 +34,7 @@ fn nothing_pops_on_orbits_near_by_nor_where_parts_get_angles_of_their_own() {
         // The target of a slow orbit.
         assert!(largest <= 1.5 * median, "{name}: {largest} {median}");
     };
-    // Past the swap, an orientation, and up past where the vertical slicing joins in.
+    // Past the swap, an orientation, and up past level with the crown.
     for distance in [3.5, 5.0, 8.0] {
         for middle in [0.0, 30.0] {
             let turn = |i: i32| filled(middle + 0.25 * (i as f32 + 0.5), 4.0, distance);
