@@ -52,46 +52,82 @@ fn measure(lab: &mut Lab, drawn: &Drawn, distances: &[f32]) -> Vec<[f64; 4]> {
     all
 }
 
-/// The share of what is behind that a crown covers, over the mesh's, by elevation of the eye.
-pub fn cover_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
-    let slicing = lab.bake(&BakeSettings::default())?;
-    let elevations = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0];
-    let distances = [8.0, 15.0, 25.0];
-    let camera = lab.studio.camera();
-    lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
-    let ways = [Drawn::Mesh, Drawn::Slicing(slicing, default())];
-    let [mesh, sliced] = ways.map(|drawn| {
-        let crown = planted(lab, &drawn, &[Transform::IDENTITY]);
-        let places = distances.iter().flat_map(|d| elevations.map(|e| (*d, e)));
-        let covers: Vec<f64> = places
-            .map(|(distance, elevation)| {
-                let azimuths = [3.0, 123.0, 270.0];
-                let shots = azimuths.map(|azimuth| shot(lab, distance, azimuth, elevation));
-                let black = brightness(lab, &shots, Color::BLACK);
-                1.0 - (brightness(lab, &shots, Color::WHITE) - black)
-            })
-            .collect();
-        uproot(lab, &crown);
-        covers
+/// Elevations of the eye, in degrees.
+const ELEVATIONS: [f32; 7] = [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0];
+/// Metres from the crown's centroid to the eyes above.
+const DISTANCES: [f32; 3] = [8.0, 15.0, 25.0];
+
+/// The share of what is behind that a crown covers, and the mean light of what covers it, distance by distance and by
+/// elevation of the eye.
+fn from_above(lab: &mut Lab, drawn: &Drawn, distances: &[f32]) -> Vec<[f64; 2]> {
+    let crown = planted(lab, drawn, &[Transform::IDENTITY]);
+    let places = distances.iter().flat_map(|d| ELEVATIONS.map(|e| (*d, e)));
+    let all = places
+        .map(|(distance, elevation)| {
+            let azimuths = [3.0, 123.0, 270.0];
+            let shots = azimuths.map(|azimuth| shot(lab, distance, azimuth, elevation));
+            let black = brightness(lab, &shots, Color::BLACK);
+            let cover = 1.0 - (brightness(lab, &shots, Color::WHITE) - black);
+            [cover, black / cover]
+        })
+        .collect();
+    uproot(lab, &crown);
+    all
+}
+
+/// A chart of ratios to the mesh by elevation, one line a name.
+fn elevation_chart(lab: &Lab, title: &str, lines: Vec<(String, Vec<f64>)>) -> Chart {
+    let series = lines.into_iter().map(|(name, ratios)| {
+        println!("{name}: {ratios:.3?}");
+        let elevations = ELEVATIONS.iter().map(|e| f64::from(*e));
+        Series::line(name, elevations.zip(ratios))
     });
-    lab.studio.world().entity_mut(camera).insert(Msaa::Off);
-    let ratios: Vec<f64> = mesh.iter().zip(&sliced).map(|(mesh, s)| s / mesh).collect();
-    let series = distances.iter().zip(ratios.chunks(elevations.len()));
-    let series = series.map(|(distance, ratios)| {
-        println!("{distance} m: {ratios:.3?}");
-        let points = elevations
-            .iter()
-            .map(|e| f64::from(*e))
-            .zip(ratios.to_vec());
-        Series::line(format!("{distance} m"), points)
-    });
-    Ok(Chart {
-        title: "Cover of a crown of slices, over the mesh's".into(),
+    Chart {
+        title: title.into(),
         series: series.collect(),
         subtitle: lab.adapter.clone(),
         x: Axis::linear("elevation (degrees)"),
         y: Axis::linear("ratio to the mesh"),
-    })
+    }
+}
+
+/// The share of what is behind that a crown covers, over the mesh's, by elevation of the eye.
+pub fn cover_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
+    let slicing = lab.bake(&BakeSettings::default())?;
+    let camera = lab.studio.camera();
+    lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
+    let [mesh, sliced] = [Drawn::Mesh, Drawn::Slicing(slicing, default())]
+        .map(|drawn| from_above(lab, &drawn, &DISTANCES));
+    lab.studio.world().entity_mut(camera).insert(Msaa::Off);
+    let ratios: Vec<f64> = mesh.iter().zip(&sliced).map(|(m, s)| s[0] / m[0]).collect();
+    let lines = DISTANCES.iter().zip(ratios.chunks(ELEVATIONS.len()));
+    let lines = lines.map(|(distance, ratios)| (format!("{distance} m"), ratios.to_vec()));
+    let title = "Cover of a crown of slices, over the mesh's";
+    Ok(elevation_chart(lab, title, lines.collect()))
+}
+
+/// The light of a crown, over the mesh's, by elevation of the eye, in the light of the grove and with its sun overhead.
+pub fn light_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
+    let slicing = lab.bake(&BakeSettings::default())?;
+    let camera = lab.studio.camera();
+    lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
+    let usual = Vec3::new(-0.7, -0.85, -0.35);
+    let mut lines = Vec::new();
+    for (name, towards) in [("sun of the grove", usual), ("sun overhead", Vec3::NEG_Y)] {
+        let world = lab.studio.world();
+        let mut suns = world.query_filtered::<&mut Transform, With<DirectionalLight>>();
+        for mut sun in suns.iter_mut(world) {
+            sun.look_to(towards, Vec3::Z);
+        }
+        let [mesh, sliced] = [Drawn::Mesh, Drawn::Slicing(slicing.clone(), default())]
+            .map(|drawn| from_above(lab, &drawn, &DISTANCES));
+        let ratios: Vec<f64> = mesh.iter().zip(&sliced).map(|(m, s)| s[1] / m[1]).collect();
+        let of_sun = DISTANCES.iter().zip(ratios.chunks(ELEVATIONS.len()));
+        lines.extend(of_sun.map(|(at, ratios)| (format!("{name}, {at} m"), ratios.to_vec())));
+    }
+    lab.studio.world().entity_mut(camera).insert(Msaa::Off);
+    let title = "Light of a crown of slices, over the mesh's";
+    Ok(elevation_chart(lab, title, lines))
 }
 
 pub fn against_distance(lab: &mut Lab) -> Result<Chart, String> {

@@ -1,14 +1,15 @@
 //! View blending (§2.3): which slicings are drawn for an eye, how opaque, and in what order.
 //!
 //! `weights.rs` finds the slicings and their weights, `parts.rs` how they differ from part to part up close, `detail.rs` the
-//! level, `cast.rs` what casts shadows; here they become slices, far to near. In `shaders`, `blend.wgsl`, `parts.wgsl`,
-//! `cast.wgsl` and, for what becomes of them, `drawn.wgsl` have the same functions by the same names.
+//! level, `cast.rs` what casts shadows, `seen.rs` how leaves are lit from above; here they become slices, far to near. In
+//! `shaders`, `blend.wgsl`, `parts.wgsl`, `cast.wgsl`, `seen.wgsl` and, for what becomes of them, `drawn.wgsl` have the same functions by the same names.
 
 use bevy::math::Vec3;
 
 mod cast;
 mod detail;
 mod parts;
+mod seen;
 mod weights;
 
 pub use cast::{DENSEST, cast_slices, facing, first_leaf};
@@ -17,6 +18,7 @@ pub use parts::{
     PART_SLOTS, PARTS, deviation, part_direction, part_slots, part_turn, part_weight,
     turned_weight, widest,
 };
+pub use seen::{AHEAD, LEAN, ahead, leaning, turned};
 pub use weights::{
     ALONE, SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slanted, slots,
 };

@@ -199,6 +199,27 @@ fn upright_slices_count_for_the_leaves_between_them_from_above() {
 }
 
 #[test]
+fn leaves_of_upright_slices_look_up_to_an_eye_above_and_down_to_one_below() {
+    let shape = shape(Orientations::Circle(6), true);
+    let front = horizontal(60.0);
+    // Roundings of unit vectors.
+    assert!(leaning(&shape, front, horizontal(80.0)).distance(front) < 1e-6);
+    for sign in [1.0, -1.0] {
+        let eye = (front + Vec3::Y * sign * f32::tan(0.4)).normalize();
+        let leans = leaning(&shape, front, eye);
+        assert!((leans.angle_between(front) - 0.4 * LEAN).abs() < 1e-3 && leans.y * sign > 0.0);
+        assert!(turned(front, front, leans).distance(leans) < 1e-6);
+        let normal = Vec3::new(0.3, -0.7, 0.2).normalize();
+        let found = turned(normal, front, leans);
+        // A rotation: lengths and angles stay.
+        assert!((found.length() - 1.0).abs() < 1e-6);
+        assert!((found.dot(leans) - normal.dot(front)).abs() < 1e-6);
+    }
+    let vertical = Vec3::NEG_Y;
+    assert_eq!(leaning(&shape, vertical, Vec3::Y), vertical);
+}
+
+#[test]
 fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
     let shape = shape(Orientations::Circle(6), true);
     for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {

@@ -61,14 +61,12 @@ fn slice_facing(in: Varying) -> Facing {
     let baked = textureLoad(normal_texture, pixel, in.layer, mip);
 #ifdef CROWN_COMPRESSED
     let occlusion = baked.r;
-    var n = unfold(baked.ag * 2.0 - 1.0);
+    let n = unfold(baked.ag * 2.0 - 1.0);
 #else
     let occlusion = baked.a;
     // The least length keeps a normal of nothing from becoming none.
-    var n = baked.xyz * 2.0 - (1.0 - 1e-6);
+    let n = baked.xyz * 2.0 - (1.0 - 1e-6);
 #endif
-    // From behind, the other side of each leaf is seen.
-    n -= 2.0 * max(dot(n, in.back), 0.0) * in.back;
     return Facing(normalize(mat3x3(in.turn_x, in.turn_y, in.turn_z) * n), occlusion);
 }
 #endif

@@ -10,6 +10,7 @@
 #import bevy_verdure::slicing::blend::FOCAL
 #import bevy_verdure::slicing::drawn::{cast_slice, drawn_slice}
 #import bevy_verdure::slicing::cast::facing
+#import bevy_verdure::slicing::seen::{ahead, leaning, turned}
 #import bevy_verdure::slicing::parts::{deviation, part_direction, part_turn}
 #import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
@@ -65,12 +66,10 @@ struct Varying {
     // In linear light.
     @location(5) @interpolate(flat) tint: vec3<f32>,
     @location(6) world_position: vec3<f32>,
-    // Columns of the matrix that turns normals into world space.
+    // Columns of the matrix that turns baked normals into those seen, in world space.
     @location(7) @interpolate(flat) turn_x: vec3<f32>,
     @location(8) @interpolate(flat) turn_y: vec3<f32>,
     @location(9) @interpolate(flat) turn_z: vec3<f32>,
-    // Direction of the slice, local, where its back is seen; else none.
-    @location(10) @interpolate(flat) back: vec3<f32>,
 #ifdef PREPASS_PIPELINE
     @location(12) local_position: vec3<f32>,
 #endif
@@ -234,12 +233,18 @@ fn place_corner(in: Corner) -> Varying {
 #endif
     out.tint = tint(tag);
     out.world_position = from_eye + view.world_position;
+    let front = select(-o.direction, o.direction, faces);
     let turn = turn_of_normals(in.instance_index);
-    out.turn_x = turn[0];
-    out.turn_y = turn[1];
-    out.turn_z = turn[2];
-    out.back = select(o.direction, vec3(0.0), faces);
-#ifdef PREPASS_PIPELINE
+    let leans = leaning(front, direction);
+    // From behind, the other side of each leaf is seen.
+    let back = select(o.direction, vec3(0.0), faces);
+    out.turn_x = turn * turned(vec3(1.0, 0.0, 0.0) - 2.0 * back.x * back, front, leans);
+    out.turn_y = turn * turned(vec3(0.0, 1.0, 0.0) - 2.0 * back.y * back, front, leans);
+    out.turn_z = turn * turned(vec3(0.0, 0.0, 1.0) - 2.0 * back.z * back, front, leans);
+#ifndef PREPASS_PIPELINE
+    // Where light meets the leaves that are seen.
+    out.world_position += world_from_local(in.instance_index) * (ahead(spacing, size.z, front, direction) * direction);
+#else
     // Moved likewise in the frame before, so that motion vectors leave wind out.
     out.local_position = local + local_from_world(in.instance_index) * moved;
 #endif

@@ -4,7 +4,8 @@ use bevy::math::{Vec3, Vec3Swizzles};
 use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::blend::{
-    deviation, part_direction, part_slots, part_turn, slanted, slots, turned_weight, widest,
+    ahead, deviation, leaning, part_direction, part_slots, part_turn, slanted, slots, turned,
+    turned_weight, widest,
 };
 use bevy_verdure::slicing::{Orientation, SlicingShape};
 
@@ -26,7 +27,7 @@ struct Shape {
 var<private> crown: Shape;
 
 @group(0) @binding(0) var<storage, read> cases: array<array<f32, 40>>;
-@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 24>>;
+@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 28>>;
 
 @compute @workgroup_size(64)
 fn run(@builtin(global_invocation_id) id: vec3<u32>) {
@@ -57,7 +58,10 @@ fn run(@builtin(global_invocation_id) id: vec3<u32>) {
         results[i][12u + 3u * k] = slot.weight;
         results[i][13u + 3u * k] = turned_weight(part_turn(slot.orientation, part));
     }
-    results[i][23] = slanted(0.7, crown.orientations[0].direction, eye);
+    let front = crown.orientations[0].direction;
+    results[i][23] = slanted(0.7, front, eye);
+    put(i, 24u, turned(vector(i, 6u), front, leaning(front, eye)));
+    results[i][27] = ahead(0.4, 1.2, front, eye);
 }
 ";
 
@@ -141,7 +145,8 @@ fn shaders_blend_slicings_as_rust_does() {
         .collect();
     let blend = undefined(include_str!("../../../src/slicing/shaders/blend.wgsl"));
     let parts = undefined(include_str!("../../../src/slicing/shaders/parts.wgsl"));
-    let results: Vec<[f32; 24]> = run(&[&blend, &parts, ENTRY], &floats);
+    let seen = undefined(include_str!("../../../src/slicing/shaders/seen.wgsl"));
+    let results: Vec<[f32; 28]> = run(&[&blend, &parts, &seen, ENTRY], &floats);
     // Where two slicings are equally near, or one is about to count, rounding decides.
     let (mut decided, total) = (0, cases.len());
     for ((shape, eye, ray, distance), found) in cases.iter().zip(results) {
@@ -158,6 +163,15 @@ fn shaders_blend_slicings_as_rust_does() {
         }
         let weight = slanted(shape, 0.7, shape.orientations[0].direction, *eye);
         assert!((found[23] - weight).abs() < 1e-5, "{eye}: {weight}");
+        let front = shape.orientations[0].direction;
+        let normal = turned(*ray, front, leaning(shape, front, *eye));
+        let found_normal = Vec3::from_slice(&found[24..27]);
+        assert!(
+            found_normal.distance(normal) < 4e-3,
+            "{eye} {ray}: {normal}"
+        );
+        let before = ahead(0.4, 1.2, front, *eye);
+        assert!((found[27] - before).abs() < 1e-5, "{eye}: {before}");
         let expected = slots(shape, *eye, SliceOrder::Steady);
         let orientations = |from: usize, step: usize, n: usize| -> Vec<u32> {
             (0..n).map(|k| found[from + step * k] as u32).collect()
