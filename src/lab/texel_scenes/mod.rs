@@ -97,7 +97,7 @@ impl TexelScene {
             Self::Limb => (Vec3::new(0.3, 1.7, 4.0), Vec3::new(0.3, 0.95, 0.0)),
             Self::Flag => (Vec3::new(0.4, 1.9, 3.4), Vec3::new(0.0, 1.3, 0.0)),
             Self::Bushes => (Vec3::new(0.0, 2.2, 5.6), Vec3::Y * 0.2),
-            Self::Noise => (Vec3::new(0.0, 1.5, 3.0), Vec3::Y * 0.1),
+            Self::Noise => (Vec3::new(0.0, 1.7, 3.9), Vec3::Y * 0.1),
             Self::Plane => (Vec3::new(0.0, 2.4, 6.5), Vec3::ZERO),
             Self::Meadow => (Vec3::new(0.0, 1.8, 7.0), Vec3::new(0.0, 0.9, 0.0)),
         }

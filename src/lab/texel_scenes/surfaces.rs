@@ -92,7 +92,9 @@ pub fn sphere(radius: f32) -> Mesh {
 /// A hill in a meadow, a texel a metre.
 pub fn hill(squares: u32, size: f32) -> Mesh {
     let height = |at: Vec2| {
-        1.1 * (-at.length_squared() / 8.0).exp() + 0.12 * (at.x * 0.9).sin() * (at.y * 0.7).cos()
+        let waves = 0.12 * (at.x * 0.9).sin() * (at.y * 0.7).cos();
+        // Nowhere below the ground that it lies on.
+        0.02 + (1.1 * (-at.length_squared() / 8.0).exp() + waves).max(0.0)
     };
     lattice(squares, squares, |column, row| {
         let at = ground(squares, squares, Vec2::splat(size), column, row);

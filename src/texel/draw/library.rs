@@ -429,17 +429,49 @@ fn told_facets(
             return None;
         }
     };
-    if let Some((triangle, fault)) = found.left_out.first() {
-        warn!(
-            "{name}: {} of its triangles carry no texels, the first is {triangle}: {fault}",
-            found.left_out.len()
-        );
-    }
-    if mesh.try_has_morph_targets().unwrap_or(false) {
-        warn!(
-            "{name} has morph targets, which texels do not follow: they stay where it is at rest. Change its vertices instead, on \
-             an entity with LiveTexels, or pose it by joints (SkinnedMesh)"
-        );
+    for warning in warnings(name, mesh, &found) {
+        warn!("{warning}");
     }
     (!found.facets.is_empty()).then_some(found)
+}
+
+/// What a mesh that carries texels, at least in part, does not show.
+fn warnings(name: &str, mesh: &Mesh, found: &SurfaceFacets) -> Vec<String> {
+    let left_out = found.left_out.first().map(|(triangle, fault)| {
+        format!(
+            "{name}: {} of its triangles carry no texels, the first is {triangle}: {fault}",
+            found.left_out.len()
+        )
+    });
+    let is_morphed = mesh.try_has_morph_targets().unwrap_or(false);
+    let morphed = is_morphed.then(|| {
+        format!(
+            "{name} has morph targets, which texels do not follow: they stay where it is at rest. Change its vertices instead, \
+             on an entity with LiveTexels, or pose it by joints (SkinnedMesh)"
+        )
+    });
+    left_out.into_iter().chain(morphed).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use bevy::mesh::morph::MorphAttributes;
+
+    use super::*;
+
+    #[test]
+    fn morph_targets_are_warned_of_by_name_and_with_what_to_do() {
+        let mut mesh = Plane3d::default().mesh().build();
+        let told = |mesh: &Mesh| {
+            let found = facets(mesh, 0.1, None).expect("it has texture coordinates");
+            warnings("mesh lawn.glb", mesh, &found)
+        };
+        assert!(told(&mesh).is_empty());
+        let vertices = mesh.count_vertices();
+        mesh.set_morph_targets(vec![MorphAttributes::default(); vertices]);
+        let [warning] = told(&mesh).try_into().expect("one warning");
+        for part in ["mesh lawn.glb", "morph targets", "LiveTexels"] {
+            assert!(warning.contains(part), "{warning}");
+        }
+    }
 }
