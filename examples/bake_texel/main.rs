@@ -36,16 +36,8 @@ struct Cli {
 /// What a volume is made of.
 #[derive(Subcommand)]
 enum Source {
-    /// A pear of about 1,000 triangles, filled.
-    Pear,
-    /// A bush of 3,500 triangles, left unfilled.
-    Bush,
-    /// Blades of grass that tile, left unfilled.
-    Grass,
-    /// A height field of Perlin noise that tiles.
-    Noise,
-    /// Strands of fur that tile: a hypertexture.
-    Fur,
+    #[command(flatten)]
+    Pattern(Pattern),
     /// A grey image of heights.
     Height {
         /// The image: black is the bottom, white the top.
@@ -56,7 +48,7 @@ enum Source {
     },
     /// A stack of images, the lowest first.
     Images {
-        /// The images; alpha of 128 and more is opaque.
+        /// PNGs; alpha of 128 and more is opaque. One without alpha is opaque everywhere, but one of them at least has it.
         #[arg(required = true)]
         files: Vec<PathBuf>,
     },
@@ -193,11 +185,7 @@ fn build(source: &Source, output: &Output) -> Result<Built, String> {
 
 fn built(source: &Source, output: &Output, progress: Progress) -> Result<Built, String> {
     let pattern = match source {
-        Source::Pear => Pattern::Pear,
-        Source::Bush => Pattern::Bush,
-        Source::Grass => Pattern::Grass,
-        Source::Noise => Pattern::Noise,
-        Source::Fur => Pattern::Fur,
+        Source::Pattern(pattern) => pattern,
         Source::Height { file, colors } => {
             return sources::height(file, colors.as_deref(), output, progress);
         }

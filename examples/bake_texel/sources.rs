@@ -61,15 +61,26 @@ pub fn height(
     built.map_err(|error| format!("{}: {error}", file.display()))
 }
 
-/// From a stack of images.
+/// From a stack of images. One without alpha is a slice that is opaque everywhere.
 pub fn images(files: &[PathBuf], output: &Output, progress: Progress) -> Result<Built, String> {
     let mut images = Vec::new();
+    let mut has_alpha = false;
     for path in files {
-        let image: RgbaImage = open(path)?.into_rgba8();
+        let image = open(path)?;
+        has_alpha |= image.color().has_alpha();
+        let image: RgbaImage = image.into_rgba8();
         images.push(StackImage {
             size: [image.width(), image.height()],
             pixels: image.pixels().map(|pixel| pixel.0).collect(),
         });
+    }
+    if !has_alpha {
+        return Err(format!(
+            "{}: none of {} images has alpha, which tells what is opaque: save them as RGBA, with alpha below 128 where \
+             slices are empty",
+            files[0].display(),
+            files.len()
+        ));
     }
     let size = UVec2::from_array(images[0].size);
     let built = from_images(

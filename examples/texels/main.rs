@@ -12,6 +12,7 @@ use bevy::core_pipeline::prepass::DepthPrepass;
 use bevy::light::NotShadowCaster;
 use bevy::mesh::skinning::SkinnedMeshInverseBindposes;
 use bevy::prelude::*;
+use bevy::render::render_resource::Face;
 use bevy_verdure::lab::CommonArgs;
 use bevy_verdure::lab::texel_scenes::{TexelScene, bend_knees, joints, surfaces};
 use bevy_verdure::prelude::*;
@@ -126,7 +127,8 @@ fn run(args: &Args) -> Result<(), String> {
                             settings,
                             surface.place,
                         ));
-                        if scene == TexelScene::Flag {
+                        let is_flag = scene == TexelScene::Flag;
+                        if is_flag {
                             entity.insert(LiveTexels);
                         }
                         if let Some(skin) = skin {
@@ -139,8 +141,20 @@ fn run(args: &Args) -> Result<(), String> {
                             entity.insert(MeshMaterial3d(materials.add(StandardMaterial {
                                 base_color: color,
                                 perceptual_roughness: 1.0,
+                                // Of a flag the cloth is seen behind.
+                                double_sided: is_flag,
+                                cull_mode: (!is_flag).then_some(Face::Back),
                                 ..default()
                             })));
+                        }
+                        if is_flag {
+                            let pole = Cylinder::new(0.025, 2.0);
+                            let at = surface.place * Vec3::new(-0.83, 0.0, 0.0);
+                            commands.spawn((
+                                Mesh3d(meshes.add(pole)),
+                                MeshMaterial3d(materials.add(Color::srgb(0.55, 0.42, 0.28))),
+                                Transform::from_translation(at.with_y(1.0)),
+                            ));
                         }
                     }
                 },

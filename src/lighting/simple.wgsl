@@ -10,6 +10,7 @@
     utils::interleaved_gradient_noise,
 }
 #import bevy_render::maths::PI
+#import bevy_verdure::lighting::spread::mean_cosine
 
 // What is lit.
 struct Leaf {
@@ -63,12 +64,6 @@ fn sunlight(light: u32, leaf: Leaf, depth: f32) -> f32 {
     let share = sample_shadow_map_hardware(place.xy, place.z, i32((*l).depth_texture_base_index + cascade));
     let is_in = all(saturate(place) == place) && depth < (*l).cascades[last].far_bound;
     return select(1.0, share, is_in);
-}
-
-// The mean of max(n·l, 0) over normals n, of which the mean has this cosine with l, and this spread. That of |n·l| is taken
-// for √(cosine² + spread/4), which is right for a single normal and for normals in all directions.
-fn mean_cosine(cosine: f32, spread: f32) -> f32 {
-    return 0.5 * (cosine + sqrt(cosine * cosine + 0.25 * spread));
 }
 
 // What a directional light adds.

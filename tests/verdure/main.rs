@@ -7,6 +7,7 @@ mod geometry;
 mod golden;
 mod jumps;
 mod lifecycle;
+mod lighting;
 mod live;
 mod meshes;
 mod multisample;

@@ -171,14 +171,15 @@ impl TexelScene {
             Self::Plane => vec![covered(
                 surfaces::jittered(10, 10, Vec2::splat(8.0)),
                 0.25,
-                Transform::from_xyz(0.0, 0.05, 0.0),
+                Transform::from_xyz(0.0, 0.01, 0.0),
             )],
             Self::Flag => vec![Covered {
-                color: Some(Color::srgb(0.10, 0.06, 0.03)),
+                color: Some(Color::srgb(0.80, 0.32, 0.22)),
                 ..covered(
                     surfaces::flag(0.0),
-                    0.05,
-                    Transform::from_xyz(0.0, 1.3, 0.0),
+                    0.025,
+                    // Its fur to the sun.
+                    Transform::from_xyz(0.0, 1.3, 0.0).with_rotation(Quat::from_rotation_y(0.6)),
                 )
             }],
             Self::Fur => vec![Covered {
@@ -191,7 +192,7 @@ impl TexelScene {
             }],
             Self::Limb => vec![Covered {
                 color: Some(Color::srgb(0.10, 0.06, 0.03)),
-                ..covered(limb::limb(), 0.12, Transform::IDENTITY)
+                ..covered(limb::limb(), 0.07, Transform::IDENTITY)
             }],
             Self::Meadow => vec![Covered {
                 color: Some(Color::srgb(0.10, 0.13, 0.04)),

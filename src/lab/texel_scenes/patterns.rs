@@ -10,19 +10,20 @@ use crate::texel::build::{
 use crate::texel::color::srgb_to_linear;
 use crate::texel::{Progress, TexelError, Topology};
 use bevy::math::{UVec2, UVec3, Vec2, Vec3};
+use clap::Subcommand;
 
-/// One of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// One of them; a command of `bake_texel` each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Subcommand)]
 pub enum Pattern {
-    /// A solid of about 1,000 triangles (§6, Figure 10).
+    /// A pear of about 1,000 triangles, filled (§6, Figure 10).
     Pear,
-    /// Sparse leaves, 3,500 triangles (§6, Figure 11).
+    /// A bush of 3,500 triangles, left unfilled (§6, Figure 11).
     Bush,
-    /// Blades of grass.
+    /// Blades of grass that tile, left unfilled.
     Grass,
-    /// A height field of cyclic Perlin noise (§6, Figure 12).
+    /// A height field of Perlin noise that tiles (§6, Figure 12).
     Noise,
-    /// Strands.
+    /// Strands of fur that tile: a hypertexture.
     Fur,
 }
 
@@ -333,7 +334,7 @@ fn fur() -> impl Fn(Vec3) -> (f32, Vec3) + Sync {
         })
         .collect();
     move |at: Vec3| {
-        let bend = Vec2::new(1.6, 0.5) * at.z * at.z;
+        let bend = Vec2::new(4.0, 1.2) * at.z * at.z;
         let place = at.truncate() * CELLS as f32 - bend;
         let square = place.floor().as_ivec2();
         let mut best = (0.0f32, Vec3::ZERO);
@@ -342,16 +343,16 @@ fn fur() -> impl Fn(Vec3) -> (f32, Vec3) + Sync {
             let index = cell.y.rem_euclid(CELLS) * CELLS + cell.x.rem_euclid(CELLS);
             let [x, y, length, sway, shade] = strands[index as usize];
             let root = cell.as_vec2() + Vec2::new(x, y) + Vec2::new(sway, -sway) * at.z;
-            let radius = 0.42 * (1.0 - at.z / length).max(0.0).powf(0.4);
+            let radius = 0.48 * (1.0 - at.z / length).max(0.0).powf(0.4);
             let density = 0.5 + (radius - place.distance(root)) * 2.0;
             if density > best.0 {
-                let color = Vec3::new(0.42, 0.26, 0.12) * shade * (0.3 + 0.9 * at.z);
+                let color = Vec3::new(0.55, 0.30, 0.12) * shade * (0.45 + 0.75 * at.z);
                 best = (density, color);
             }
         }
         // The hide.
         if at.z < 0.04 && best.0 < 0.5 {
-            best = (1.0, Vec3::new(0.10, 0.06, 0.03));
+            best = (1.0, Vec3::new(0.18, 0.11, 0.055));
         }
         best
     }

@@ -53,7 +53,7 @@ pub fn grid(columns: u32, rows: u32, size: Vec2) -> Mesh {
     })
 }
 
-/// The same with vertices that are moved at random.
+/// The same with vertices that are moved at random, but for its border, which stays on the ground.
 pub fn jittered(columns: u32, rows: u32, size: Vec2) -> Mesh {
     let mut dice = Dice::new(7);
     let jitter: Vec<Vec3> = (0..(columns + 1) * (rows + 1))
@@ -66,7 +66,10 @@ pub fn jittered(columns: u32, rows: u32, size: Vec2) -> Mesh {
         })
         .collect();
     lattice(columns, rows, |column, row| {
-        let moved = jitter[(row * (columns + 1) + column) as usize];
+        let mut moved = jitter[(row * (columns + 1) + column) as usize];
+        if column % columns == 0 || row % rows == 0 {
+            moved.y = 0.0;
+        }
         (ground(columns, rows, size, column, row) + moved, Vec3::Y)
     })
 }
@@ -116,16 +119,28 @@ pub fn with_heights(mut mesh: Mesh, height: impl Fn(Vec3) -> Vec3) -> Mesh {
     mesh
 }
 
-/// A flag in the wind at a time, in seconds: 8 by 5 squares, held at its left side.
+/// A flag in the wind at a time, in seconds: 8 by 5 texels of eight triangles each, held at its left side.
 pub fn flag(time: f32) -> Mesh {
+    const SHARE: u32 = 2;
     let place = |x: f32, y: f32| {
         let wave = (5.0 * x - 6.0 * time + 0.8 * y).sin() * 0.16 * x;
         Vec3::new(x - 0.8, y - 0.5, wave)
     };
-    lattice(8, 5, |column, row| {
-        let (x, y) = (column as f32 * 0.2, row as f32 * 0.2);
+    let mesh = lattice(8 * SHARE, 5 * SHARE, |column, row| {
+        let [x, y] = [column, row].map(|count| (count as f32 / SHARE as f32) * 0.2);
         let along = place(x + 0.01, y) - place(x - 0.01, y);
         let up = place(x, y + 0.01) - place(x, y - 0.01);
         (place(x, y), along.cross(up).normalize())
-    })
+    });
+    smaller(mesh, SHARE)
+}
+
+/// A mesh of which so many squares in a row share a texel.
+fn smaller(mut mesh: Mesh, squares: u32) -> Mesh {
+    if let Some(VertexAttributeValues::Float32x2(uvs)) = mesh.attribute_mut(Mesh::ATTRIBUTE_UV_0) {
+        for uv in uvs.as_flattened_mut() {
+            *uv /= squares as f32;
+        }
+    }
+    mesh
 }

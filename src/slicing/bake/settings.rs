@@ -28,7 +28,7 @@ pub struct BakeSettings {
     /// m_s of §2.3, 0 to 4: how much more opaque blended slicings are drawn in the paper's order, for their brightness.
     pub correction: f32,
     /// How much light from around is held back by the leaves it passes, from 0 to 1: 0 not at all, as meshes are lit in Bevy,
-    /// which is nearest to these; 1 as if leaves were black. Half-way, the default, is still darker within.
+    /// which is nearest to these; 1 as if leaves were black. The default, a quarter, still is a little darker within.
     pub occlusion: f32,
     /// Threads to bake with; 0 for as many as the machine has cores. The result does not depend on it.
     pub threads: usize,
@@ -44,7 +44,7 @@ impl Default for BakeSettings {
             pixels: 256,
             samples: 4,
             correction: 0.5,
-            occlusion: 0.5,
+            occlusion: 0.25,
             threads: 0,
         }
     }

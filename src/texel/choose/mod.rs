@@ -143,8 +143,8 @@ pub struct AxisSlices {
     pub lots: [f32; 2],
     /// How deep inside of contours one may see, h·tan(a), at most e; a length in the space of the facet.
     pub inside: f32,
-    /// d, which it should not exceed.
-    pub depth: f32,
+    /// e of this direction, in the same space.
+    pub thickness: f32,
     /// How much of a texel a pixel of the view covers at most, along the columns and along the rows of a slice.
     pub footprint: Vec2,
 }
@@ -280,7 +280,7 @@ impl FacetInView {
             for_depth
         };
         let exponent = count_exponent(slices, most);
-        let depth = quality.depth * self.e[i];
+        let d = quality.depth * self.e[i];
         AxisSlices {
             axis,
             exponent,
@@ -288,8 +288,8 @@ impl FacetInView {
             finer: finer_share(slices, exponent, most),
             lots: [0.0, 1.0],
             // Beyond e there are gaps, and no inside.
-            inside: (for_inside / (1u32 << exponent) as f32 * depth).min(self.e[i]),
-            depth,
+            inside: (for_inside / (1u32 << exponent) as f32 * d).min(self.e[i]),
+            thickness: self.e[i],
             footprint: slope * (self.z_far / view.pixels),
         }
     }

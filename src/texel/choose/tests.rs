@@ -240,7 +240,10 @@ fn bounds_that_are_no_numbers_above_zero_draw_all_slices() {
         let all = choose_fading(&facet(), &measure(), &view, &quality);
         for slices in all.into_iter().flatten() {
             assert_eq!(slices.exponent, 6, "{bound}");
-            assert!(slices.inside.is_finite() && slices.depth > 0.0, "{bound}");
+            assert!(
+                slices.inside.is_finite() && slices.thickness > 0.0,
+                "{bound}"
+            );
         }
     }
     assert!(matches!(fewer, Choice::Slices { exponent, .. } if exponent < 6));

@@ -137,6 +137,30 @@ pub struct TexelSettings {
     pub empty_slices: bool,
 }
 
+/// The most slices that are looked up in the layer of one.
+const MOST_INNER_SLICES: u32 = 16;
+
+/// Found on pears (§6, Figure 11), lit from all sides: with less single pixels are dark, with a half stalks cast no shadow at
+/// their feet.
+const SHADOW_SHARE: f32 = 0.125;
+
+impl TexelSettings {
+    /// Slices that are looked up in the layer of one of `count`, of which there are `most`: as the shader counts them.
+    pub(crate) fn inner_slices(&self, count: u32, most: u32) -> u32 {
+        let inner = self.inner_slices.clamp(1, MOST_INNER_SLICES);
+        (most / count).clamp(1, 1 << inner.ilog2())
+    }
+
+    /// How far above a place that is seen light falls on it, or solids would shade themselves in specks. So far it may be from the
+    /// surface: `inside`, by slices of a volume e thick in whose layers `inner` ones are looked up. In shadow maps, merged layers
+    /// stand out of what widens towards the light, by a share of d of [`shadows`](Self::shadows).
+    pub(crate) fn stand_off(&self, inside: f32, thickness: f32, inner: u32) -> f32 {
+        // What is no number is none, and from e on there are gaps.
+        let d = self.shadows.depth.clamp(0.0, 1.0).max(0.0) * thickness;
+        inside / inner as f32 + SHADOW_SHARE * d
+    }
+}
+
 impl Default for TexelSettings {
     fn default() -> Self {
         Self {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use bevy::asset::{AssetId, RenderAssetUsages};
+use bevy::ecs::name::NameOrEntityItem;
 use bevy::image::Image;
 use bevy::mesh::PrimitiveTopology;
 use bevy::platform::collections::{HashMap, HashSet};
@@ -105,6 +106,22 @@ pub(crate) struct TexelAssets<'w> {
     buffers: ResMut<'w, Assets<ShaderBuffer>>,
     materials: ResMut<'w, Assets<TexelMaterial>>,
     pub volumes: Res<'w, Assets<TexelVolume>>,
+    server: Option<Res<'w, AssetServer>>,
+}
+
+impl TexelAssets<'_> {
+    /// What messages call a mesh by: where it was loaded from, or a surface that has it.
+    fn mesh_name(&self, mesh: AssetId<Mesh>, owner: &NameOrEntityItem) -> String {
+        let path = self
+            .server
+            .as_ref()
+            .and_then(|server| server.get_path(mesh));
+        match (path, owner.name) {
+            (Some(path), _) => format!("mesh {path}"),
+            (None, Some(name)) => format!("the mesh of {name} ({})", owner.entity),
+            (None, None) => format!("the mesh of {}", owner.entity),
+        }
+    }
 }
 
 /// What there is to draw of a surface.
@@ -140,7 +157,7 @@ impl TexelLibrary {
         self.quad.get_or_insert_with(add).clone()
     }
 
-    /// What a surface is drawn with. `heights` are its own, if it has any.
+    /// What a surface is drawn with. `heights` are its own, if it has any; messages name its `owner`.
     #[expect(
         clippy::too_many_arguments,
         reason = "all that a surface's looks depend on"
@@ -148,7 +165,7 @@ impl TexelLibrary {
     pub(crate) fn drawn(
         &mut self,
         keys: TexelKeys,
-        surface: &TexelSurface,
+        owner: &NameOrEntityItem,
         settings: &TexelSettings,
         heights: Option<&TexelHeights>,
         most_layers: u32,
@@ -169,7 +186,9 @@ impl TexelLibrary {
             let Some(mesh) = assets.meshes.get(keys.geometry.mesh) else {
                 return Drawn::NotYet;
             };
-            let found = told_facets(keys.geometry.mesh, mesh, surface.thickness, heights);
+            let name = assets.mesh_name(keys.geometry.mesh, owner);
+            let thickness = f32::from_bits(keys.geometry.thickness);
+            let found = told_facets(&name, mesh, thickness, heights);
             let geometry = found.map(|facets| Geometry::new(&facets, &mut assets.buffers));
             self.geometries.insert(keys.geometry, geometry);
         }
@@ -398,7 +417,7 @@ impl TexelLibrary {
 
 /// The facets of a mesh; none, and a message, if it has none.
 fn told_facets(
-    id: AssetId<Mesh>,
+    name: &str,
     mesh: &Mesh,
     thickness: f32,
     heights: Option<&TexelHeights>,
@@ -406,14 +425,20 @@ fn told_facets(
     let found = match facets(mesh, thickness, heights) {
         Ok(found) => found,
         Err(error) => {
-            error!("mesh {id:?} carries no texels: {error}");
+            error!("{name} carries no texels: {error}");
             return None;
         }
     };
     if let Some((triangle, fault)) = found.left_out.first() {
         warn!(
-            "mesh {id:?}: {} of its triangles carry no texels, the first is {triangle}: {fault}",
+            "{name}: {} of its triangles carry no texels, the first is {triangle}: {fault}",
             found.left_out.len()
+        );
+    }
+    if mesh.try_has_morph_targets().unwrap_or(false) {
+        warn!(
+            "{name} has morph targets, which texels do not follow: they stay where it is at rest. Change its vertices instead, on \
+             an entity with LiveTexels, or pose it by joints (SkinnedMesh)"
         );
     }
     (!found.facets.is_empty()).then_some(found)

@@ -21,9 +21,6 @@ use super::records::vertex_buffers;
 use crate::lighting::{PlantLighting, SceneLighting};
 use crate::pipeline::{define, embedded_shader, names};
 
-/// The most slices that are looked up in the layer of one.
-const MOST_INNER_SLICES: u32 = 16;
-
 /// What the shaders have of a volume and a surface's settings.
 #[derive(Clone, Copy, Debug, PartialEq, ShaderType)]
 pub(crate) struct TexelsUniform {
@@ -42,7 +39,7 @@ impl TexelsUniform {
             roughness: settings.roughness,
             wind: wind.extend(settings.flexibility),
             reflectance: settings.reflectance,
-            inner_slices: settings.inner_slices.clamp(1, MOST_INNER_SLICES),
+            inner_slices: settings.inner_slices(1, u32::MAX),
         }
     }
 }

@@ -23,8 +23,8 @@
 //! good as the best: each pixel of the screen draws a lot, and shows the slices whose it is. Either set alone would do.
 //!
 //! # Light on slices
-//! Slices show the inside of things, by up to d (§4.1). It is lit and shadowed as the surface above it, or solids would
-//! shade themselves in stripes. Facets of a bent surface are shaded by the mesh's normals, so that they do not show.
+//! Slices show the inside of things, by up to d (§4.1), and shadow maps have slices too, which stand out towards the light. So what is
+//! seen is lit and shadowed a little above it, or solids would shade themselves in specks (`TexelSettings::stand_off`). Facets of a bent surface are shaded by the mesh's normals, so that they do not show.
 //!
 //! # What it costs
 //! A surface is three draws for depth and three for colours, one for each axis, where that axis has slices; three in a
@@ -34,10 +34,12 @@
 //! of slices, some 64 bytes a voxel.
 //!
 //! # What it does not do
-//! Morphed meshes carry texels where they are at rest. Motion vectors leave skins and wind out. Cutting a volume into slices takes a second or more for
-//! 256×256×64 voxels, in the frame in which it is first shown. A slice across u or v is a quad, so that texels with height
-//! vectors that twist are bent in steps. Deferred cameras draw texels forward. Where a facet needs more slices than there
-//! are, or height vectors differ much over it, gaps may show: subdivide the mesh. Storage buffers in the vertex stage are required, so WebGL 2 is out.
+//! Meshes with morph targets carry texels where they are at rest, with a warning. Motion vectors leave skins and wind out.
+//! Cutting a volume into slices takes a second or more for 256×256×64 voxels, in the frame in which it is first shown. A slice
+//! across u or v is a quad, so that texels with height vectors that twist are bent in steps. Deferred cameras draw texels
+//! forward: they are in the depth, normal and motion-vector prepasses, and not in the G-buffer. Where a facet needs more slices
+//! than there are, or height vectors differ much over it, gaps may show: subdivide the mesh. Storage buffers in the vertex stage
+//! are required, so WebGL 2 is out.
 
 mod commands;
 mod component;

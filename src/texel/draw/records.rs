@@ -50,8 +50,8 @@ pub(crate) struct SliceRecord {
     pub count: u32,
     /// Which pixels are its, by their lots.
     pub lots: [f32; 2],
-    /// How far the surface may be above the place inside of it that is seen.
-    pub inside: f32,
+    /// How far above the place that is seen light falls on it.
+    pub stand_off: f32,
     /// What of it is drawn.
     pub trim: Trim,
 }

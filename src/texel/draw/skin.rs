@@ -1,6 +1,7 @@
 //! Surfaces of skinned meshes: facets follow the joints, on the CPU, which chooses slices from them anyway.
 
 use bevy::camera::primitives::Aabb;
+use bevy::ecs::name::NameOrEntity;
 use bevy::math::{Mat3, Mat4};
 use bevy::mesh::skinning::{SkinnedMesh, SkinnedMeshInverseBindposes};
 use bevy::mesh::{Mesh, VertexAttributeValues};
@@ -101,7 +102,7 @@ fn matrices(
 
 /// A surface that follows joints.
 type Skinned<'w> = (
-    Entity,
+    NameOrEntity,
     &'w TexelDrawn,
     &'w TexelSettings,
     Ref<'w, SkinnedMesh>,
@@ -125,8 +126,9 @@ pub(crate) fn follow_skins(
     let Some(bindposes) = bindposes else {
         return;
     };
-    for (entity, drawn, settings, skinned, transform, heights, is_live, mut source) in &mut surfaces
+    for (owner, drawn, settings, skinned, transform, heights, is_live, mut source) in &mut surfaces
     {
+        let entity = owner.entity;
         let has_moved = |joint: &Entity| joints.get(*joint).is_ok_and(|joint| joint.is_changed());
         let is_as_before = !is_live
             && !source.is_changed()
@@ -162,7 +164,7 @@ pub(crate) fn follow_skins(
             Err(TexelSurfaceError::NoBindposes) => {}
             Err(error) => {
                 if told.insert(entity) {
-                    error!("surface {entity}: its texels stay as they were: {error}");
+                    error!("surface {owner}: its texels stay as they were: {error}");
                 }
             }
         }

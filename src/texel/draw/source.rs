@@ -163,6 +163,9 @@ impl SliceSource {
                         continue;
                     }
                     let range = slice_range(facet.uvs, slices.axis, count);
+                    let most = self.volume.measure.most[slices.axis.index()];
+                    let inner = settings.inner_slices(count, most);
+                    let stand_off = settings.stand_off(slices.inside, slices.thickness, inner);
                     let record = |slice| {
                         let trim = if settings.empty_slices {
                             WHOLE
@@ -176,8 +179,7 @@ impl SliceSource {
                             slice,
                             count,
                             lots: [low, high],
-                            // Light sees slices too: those of merged layers stand out by up to half their distance.
-                            inside: slices.inside + slices.depth,
+                            stand_off,
                             trim,
                         })
                     };

@@ -2,6 +2,7 @@
 
 use bevy::camera::primitives::Aabb;
 use bevy::camera::visibility::{NoAutoAabb, RenderLayers};
+use bevy::ecs::name::NameOrEntity;
 use bevy::light::NotShadowCaster;
 use bevy::mesh::skinning::SkinnedMesh;
 use bevy::platform::collections::HashSet;
@@ -48,7 +49,7 @@ const LAYERS: u32 = 256;
 
 /// What is looked at of a surface.
 type Attachable<'w> = (
-    Entity,
+    NameOrEntity,
     &'w TexelSurface,
     &'w TexelSettings,
     &'w Mesh3d,
@@ -112,7 +113,7 @@ pub(crate) fn attach(
     looked.list.clear();
     if core::mem::take(&mut library.is_stale) {
         let surfaces = looked.surfaces.iter();
-        looked.list.extend(surfaces.map(|surface| surface.0));
+        looked.list.extend(surfaces.map(|surface| surface.0.entity));
     } else {
         looked.list.extend(&looked.changed);
         let lost = &mut looked.lost;
@@ -125,7 +126,7 @@ pub(crate) fn attach(
         let Ok(found) = looked.surfaces.get(entity) else {
             continue;
         };
-        let (entity, surface, settings, mesh, heights, is_live, is_skinned, drawn, source) = found;
+        let (owner, surface, settings, mesh, heights, is_live, is_skinned, drawn, source) = found;
         let own = (heights.is_some() || is_live || is_skinned).then_some(entity);
         let keys = TexelKeys::new(surface, mesh.id(), settings, own);
         let is_stroked = heights.as_ref().is_some_and(|heights| heights.is_changed());
@@ -134,7 +135,7 @@ pub(crate) fn attach(
         if (is_live || is_stroked) && !is_skinned {
             library.renew(keys.geometry, heights, &mut assets);
         }
-        let found = library.drawn(keys, surface, settings, heights, layers, wind, &mut assets);
+        let found = library.drawn(keys, &owner, settings, heights, layers, wind, &mut assets);
         let (geometry, volume, materials) = match found {
             Drawn::NotYet => {
                 is_waiting = true;

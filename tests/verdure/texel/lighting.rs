@@ -60,3 +60,50 @@ fn simple_light_looks_like_full_light_and_gives_way_to_it() {
     let after = picture(&mut studio, surface, PlantLighting::Simple);
     assert_eq!(after.rgb_bytes(), simple.rgb_bytes());
 }
+
+#[test]
+fn what_a_sun_sees_is_in_no_shadow_of_its_own() {
+    use bevy::light::NotShadowReceiver;
+    let mut studio = Studio::default();
+    let surface = cover_default(&mut studio, TexelSettings::default());
+    let sun = DirectionalLight {
+        shadow_maps_enabled: true,
+        illuminance: 5_000.0,
+        ..default()
+    };
+    let sun = studio.world().spawn((sun, Transform::default())).id();
+    // Slices across each axis, merged into few; beside the axes, layers stand out of what narrows and widens.
+    for to_sun in [
+        Vec3::new(0.7, 0.85, 0.35),
+        Vec3::new(-0.3, 1.0, 0.1),
+        Vec3::new(1.0, 0.3, 0.2),
+        Vec3::new(0.2, 0.4, -1.0),
+    ] {
+        let place = Transform::default().looking_to(-to_sun, Vec3::Y);
+        studio.world().entity_mut(sun).insert(place);
+        let from_sun = shot(Vec3::new(0.5, 0.5, -0.5) + to_sun.normalize() * 3.2);
+        let mut light = |is_lit: bool| {
+            let mut surface = studio.world().entity_mut(surface);
+            if is_lit {
+                surface.insert(NotShadowReceiver);
+            } else {
+                surface.remove::<NotShadowReceiver>();
+            }
+            studio.headless.step();
+            let bytes = studio.photograph(&from_sun, Color::BLACK).rgb_bytes();
+            let sums = bytes.chunks_exact(3);
+            sums.map(|color| color.iter().map(|&c| u32::from(c)).sum())
+                .collect::<Vec<u32>>()
+        };
+        let (with, without) = (light(false), light(true));
+        let seen = without.iter().filter(|&&light| light > 0).count();
+        let darkened = |(with, without): &(&u32, &u32)| *with * 10 < *without * 9;
+        let darkened = with.iter().zip(&without).filter(darkened).count();
+        println!("{to_sun}: {darkened} of {seen} pixels are in their own shadow");
+        // The eye is nearer than the sun, and sees a little of what the ball shades of its post: one pixel in a hundred.
+        assert!(
+            seen > 500 && darkened * 100 <= seen,
+            "{to_sun}: {darkened} of {seen}"
+        );
+    }
+}

@@ -49,7 +49,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let normal = world_normal(in, inner.normal);
     // Lit and shadowed where the surface is, above the inside that slices show (§4.1).
     let way = view_direction(in.world_position.xyz - view.world_position);
-    let surface = in.world_position.xyz + way * inner.along + normal * (in.inside / inner.finer);
+    let surface = in.world_position.xyz + way * inner.along + normal * in.stand_off;
     var input = pbr_types::pbr_input_new();
     input.material.base_color = vec4(seen, 1.0);
     input.material.perceptual_roughness = texels.roughness;

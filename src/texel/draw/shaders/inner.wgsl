@@ -16,8 +16,6 @@ struct Inner {
     normal: vec3<f32>,
     // How far along the view, in lengths of the vector from which `view_in_volume` comes.
     along: f32,
-    // How many times finer it is known than by slices. What is found nowhere is beside of what the slice shows, and no deeper.
-    finer: f32,
 }
 
 fn look_inside(in: Varying) -> Inner {
@@ -63,6 +61,5 @@ fn look_inside(in: Varying) -> Inner {
         textureSampleLevel(color_texture, slice_sampler, uv, layer, level).rgb,
         textureSampleLevel(normal_texture, slice_sampler, uv, layer, level).xyz,
         along,
-        f32(inner),
     );
 }

@@ -22,7 +22,7 @@ struct Corner {
     @builtin(vertex_index) corner: u32,
     // The facet, the number of the slice, and of how many a texel it is one.
     @location(0) slice: vec3<u32>,
-    // Which pixels are its, from one lot to another, and how far the surface may be above the place inside of it that is seen.
+    // Which pixels are its, from one lot to another, and how far above the place that is seen light falls on it.
     @location(1) look: vec3<f32>,
     // What of it is drawn: from where to where along its line, and up its height vectors, from 0 to 1.
     @location(2) trim: vec4<f32>,
@@ -58,7 +58,7 @@ struct Varying {
 #ifdef MOTION_VECTOR_PREPASS
     @location(7) previous_world_position: vec3<f32>,
 #endif
-    @location(8) @interpolate(flat) inside: f32,
+    @location(8) @interpolate(flat) stand_off: f32,
     @location(9) @interpolate(flat) lots: vec2<f32>,
 #ifdef TEXEL_DIRECTIONAL_LIGHT
     // The mip level whose pixels are as large as those of the shadow map.
@@ -107,6 +107,14 @@ fn bend(foot: vec3<f32>, height: vec3<f32>) -> vec3<f32> {
 
 #ifdef TEXEL_DIRECTIONAL_LIGHT
 
+// From the middle of the layer of a slice to that of the finest one at its end away from the light. A slice is as wide as what is
+// widest in its layer: at that end it stands out of nothing that narrows towards the light, and so is what is lit.
+fn away_from_light(frame: TexelFrame, count: u32) -> vec3<f32> {
+    let most = f32((textureNumLayers(normal_texture) + 1u) / 2u);
+    let along = in_frame(frame, view_direction(vec3(0.0)))[AXIS];
+    return frame.edges[AXIS] * (sign(along) * 0.5 * (1.0 / f32(count) - 1.0 / most));
+}
+
 // The mip level of a slice in an orthographic view, in which it is the same everywhere.
 fn slice_level(frame: TexelFrame) -> u32 {
     let v = view.view_from_world;
@@ -152,17 +160,21 @@ fn place_corner(in: Corner) -> Varying {
     let uv = facet_uv(facet, b);
     out.uv = vec2(select(uv.x, uv.y, AXIS == 0u), select(w, uv.y, AXIS == 2u));
     out.lots = in.look.xy;
-    out.inside = in.look.z;
+    out.stand_off = in.look.z;
     out.flags = in.flags;
     // Copies of the texture show the same slices; counts are powers of two.
     out.layer = count - 1u + (in.slice.y & (count - 1u));
-    let from_eye = facet_point(facet, b, w);
+    let frame = texel_frame(facet, b, w);
+    var from_eye = facet_point(facet, b, w);
+#ifdef TEXEL_DIRECTIONAL_LIGHT
+    from_eye += away_from_light(frame, count);
+#endif
     let v = view.view_from_world;
     var clip = view.clip_from_view * vec4(mat3x3(v[0].xyz, v[1].xyz, v[2].xyz) * from_eye, 1.0);
 #ifdef TEXEL_DIRECTIONAL_LIGHT
     // What is nearer to the sun than its shadow map casts shadows all the same.
     clip.z = min(clip.z, 1.0);
-    out.level = slice_level(texel_frame(facet, b, w));
+    out.level = slice_level(frame);
 #endif
     out.position = clip;
     out.world_position = vec4(from_eye + view.world_position, 1.0);
@@ -177,14 +189,13 @@ fn place_corner(in: Corner) -> Varying {
 #ifdef TEXEL_NORMALS
     let record = facets[in.slice.x];
     let normal = cofactors * (mat3x3(record.normals[0].xyz, record.normals[1].xyz, record.normals[2].xyz) * b) * sign(det);
-    let own_frame = texel_frame(facet, b, w);
-    let frame = smooth_frame(own_frame, normal / max(length(normal), 1e-30));
-    let to_world = normal_transform(frame, texels.lengths);
+    let shaded = smooth_frame(frame, normal / max(length(normal), 1e-30));
+    let to_world = normal_transform(shaded, texels.lengths);
     out.normal_from_u = to_world[0];
     out.normal_from_v = to_world[1];
     out.normal_from_w = to_world[2];
 #ifdef TEXEL_INNER
-    out.view_in_volume = in_frame(own_frame, view_direction(from_eye));
+    out.view_in_volume = in_frame(frame, view_direction(from_eye));
 #endif
 #endif
     return out;
