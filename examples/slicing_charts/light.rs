@@ -109,6 +109,11 @@ pub fn cover_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
 /// The light of a crown, over the mesh's, by elevation of the eye, in the light of the grove and with its sun overhead.
 pub fn light_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
     let slicing = lab.bake(&BakeSettings::default())?;
+    let distances = if lab.quick {
+        &DISTANCES[1..2]
+    } else {
+        &DISTANCES
+    };
     let camera = lab.studio.camera();
     lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
     let usual = Vec3::new(-0.7, -0.85, -0.35);
@@ -120,9 +125,9 @@ pub fn light_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
             sun.look_to(towards, Vec3::Z);
         }
         let [mesh, sliced] = [Drawn::Mesh, Drawn::Slicing(slicing.clone(), default())]
-            .map(|drawn| from_above(lab, &drawn, &DISTANCES));
+            .map(|drawn| from_above(lab, &drawn, distances));
         let ratios: Vec<f64> = mesh.iter().zip(&sliced).map(|(m, s)| s[1] / m[1]).collect();
-        let of_sun = DISTANCES.iter().zip(ratios.chunks(ELEVATIONS.len()));
+        let of_sun = distances.iter().zip(ratios.chunks(ELEVATIONS.len()));
         lines.extend(of_sun.map(|(at, ratios)| (format!("{name}, {at} m"), ratios.to_vec())));
     }
     lab.studio.world().entity_mut(camera).insert(Msaa::Off);

@@ -57,6 +57,13 @@ pub struct SlicingShape {
 }
 
 impl SlicingShape {
+    /// How many orientations the discrepancy angle chooses among: all but a vertical one beside others, which joins in
+    /// by the eye's elevation.
+    pub fn upright_count(&self) -> usize {
+        let count = self.orientations.len();
+        count - usize::from(self.vertical && count > 1)
+    }
+
     /// Slices of all levels and orientations.
     pub fn layers(&self) -> usize {
         let slices: u64 = self.levels.iter().map(|slices| u64::from(*slices)).sum();

@@ -81,10 +81,12 @@ fn bake_shape(
     settings.check()?;
     let shape = shape(mesh, settings, directions);
     let share = settings.occlusion;
-    let light: Vec<f32> = occlusion::light_from_around(mesh)
-        .into_iter()
-        .map(|light| 1.0 - share * (1.0 - light))
-        .collect();
+    let light: Vec<f32> = if share > 0.0 {
+        let light = occlusion::light_from_around(mesh).into_iter();
+        light.map(|light| 1.0 - share * (1.0 - light)).collect()
+    } else {
+        vec![1.0; mesh.triangles.len()]
+    };
     let jobs = jobs(&shape);
     let picture = |&(orientation, slice, count): &(usize, u32, u32)| {
         let projection = Projection {

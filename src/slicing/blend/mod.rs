@@ -20,7 +20,7 @@ pub use parts::{
 };
 pub use seen::{AHEAD, LEAN, ahead, leaning, turned};
 pub use weights::{
-    ALONE, SLOTS, SUREST, Slot, corrected, covered, primary_opacity, slanted, slots,
+    ALONE, SLOTS, SUREST, Slot, corrected, covered, nearest, primary_opacity, slanted, slots,
 };
 
 use super::slicing::SlicingShape;

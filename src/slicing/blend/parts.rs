@@ -4,7 +4,7 @@
 use bevy::math::{Vec2, Vec3};
 
 use super::weights::RISE;
-use super::{SLOTS, SliceOrder, Slot, slots, smooth};
+use super::{SLOTS, SliceOrder, Slot, nearest, slots, smooth};
 use crate::slicing::slicing::SlicingShape;
 
 /// Slicings that are drawn at once where the discrepancy angle is taken part by part.
@@ -22,8 +22,7 @@ const WIDEST: f32 = core::f32::consts::FRAC_PI_6;
 /// slicing that is not among the three nearest to the eye counts for no part of it. 0 over the sphere, where the angle stays
 /// the whole crown's.
 pub fn widest(shape: &SlicingShape) -> f32 {
-    let count =
-        shape.orientations.len() - usize::from(shape.vertical && shape.orientations.len() > 1);
+    let count = shape.upright_count();
     if shape.sphere {
         return 0.0;
     }
@@ -81,8 +80,7 @@ pub fn part_turn(shape: &SlicingShape, orientation: u32, direction: Vec3) -> Vec
     if towards.y.abs() > 0.999 {
         return Vec2::new(0.0, 1.0 - rise);
     }
-    let count =
-        shape.orientations.len() - usize::from(shape.vertical && shape.orientations.len() > 1);
+    let count = shape.upright_count();
     let right = Vec3::new(towards.z, 0.0, -towards.x);
     let discrepancy = direction.dot(right).atan2(direction.dot(towards));
     let (mut next, mut greatest) = (0.0_f32, -2.0_f32);
@@ -136,23 +134,9 @@ fn counts(shape: &SlicingShape, orientation: u32, direction: Vec3, deviation: Ve
 /// The slicings that are drawn for an eye in a `direction` (unit) from the centroid, in the order of their orientations: of weight
 /// 1 those that count for any part, whose own weight [`part_weight`] tells, of weight 0 others.
 pub fn part_slots(shape: &SlicingShape, direction: Vec3, deviation: Vec2) -> [Slot; PART_SLOTS] {
-    let count =
-        shape.orientations.len() - usize::from(shape.vertical && shape.orientations.len() > 1);
-    let mut nearest = [0_u32; 3];
-    let mut cosines = [-2.0_f32; 3];
-    for (i, o) in shape.orientations[..count].iter().enumerate() {
-        let cosine = o.direction.dot(direction);
-        for k in 0..3 {
-            if cosine > cosines[k] {
-                nearest[k..].rotate_right(1);
-                cosines[k..].rotate_right(1);
-                (nearest[k], cosines[k]) = (i as u32, cosine);
-                break;
-            }
-        }
-    }
-    nearest.sort_unstable();
-    let [a, b, c] = nearest;
+    let ([mut sorted @ .., _], _) = nearest(shape, direction);
+    sorted.sort_unstable();
+    let [a, b, c] = sorted;
     let last = shape.orientations.len() as u32 - 1;
     let mut before = u32::MAX;
     [a, b, c, last].map(|orientation| {

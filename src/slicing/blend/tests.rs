@@ -21,6 +21,12 @@ fn shape(orientations: Orientations, vertical: bool) -> SlicingShape {
     }
 }
 
+/// So many orientations over an arc, and a vertical one.
+fn arc(count: u32, to: f32) -> SlicingShape {
+    let from = 0.0;
+    shape(Orientations::Arc { count, from, to }, true)
+}
+
 fn horizontal(degrees: f32) -> Vec3 {
     let (sin, cos) = degrees.to_radians().sin_cos();
     Vec3::new(cos, 0.0, sin)
@@ -303,14 +309,7 @@ fn weights_add_up_to_1_for_any_eye() {
         shape(Orientations::Circle(6), true),
         shape(Orientations::Circle(3), false),
         shape(Orientations::Sphere(9), false),
-        shape(
-            Orientations::Arc {
-                count: 2,
-                from: 0.0,
-                to: 0.5,
-            },
-            true,
-        ),
+        arc(2, 0.5),
     ] {
         for eye in Orientations::Sphere(499).directions() {
             for order in [SliceOrder::Steady, SliceOrder::Paper] {
@@ -339,14 +338,7 @@ fn of_what_any_part_shows_nothing_is_left_out_or_seen_from_behind() {
         shape(Orientations::Circle(6), true),
         shape(Orientations::Circle(3), false),
         shape(Orientations::Circle(24), true),
-        shape(
-            Orientations::Arc {
-                count: 2,
-                from: 0.0,
-                to: 0.5,
-            },
-            true,
-        ),
+        arc(2, 0.5),
     ] {
         for distance in [0.5, 1.5, 2.5] {
             for eye in Orientations::Sphere(499).directions() {
@@ -383,14 +375,7 @@ fn weights_told_by_turns_are_those_of_directions() {
         shape(Orientations::Circle(2), true),
         shape(Orientations::Circle(3), false),
         shape(Orientations::Circle(24), true),
-        shape(
-            Orientations::Arc {
-                count: 3,
-                from: 0.0,
-                to: 0.9,
-            },
-            true,
-        ),
+        arc(3, 0.9),
     ] {
         for direction in Orientations::Sphere(999).directions() {
             for orientation in 0..shape.orientations.len() as u32 {
@@ -404,6 +389,11 @@ fn weights_told_by_turns_are_those_of_directions() {
             }
         }
     }
+}
+
+#[test]
+fn over_the_sphere_the_discrepancy_angle_is_the_whole_crowns() {
+    assert_eq!(widest(&shape(Orientations::Sphere(9), false)), 0.0);
 }
 
 #[test]
@@ -425,9 +415,4 @@ fn parts_differ_by_no_more_than_they_are_seen_under_and_from_far_by_nothing() {
             assert!(ray == -eye || (part.angle_between(eye) - most).abs() < 2e-3);
         }
     }
-    assert_eq!(widest(&shape_of_the_sphere()), 0.0);
-}
-
-fn shape_of_the_sphere() -> SlicingShape {
-    shape(Orientations::Sphere(9), false)
 }

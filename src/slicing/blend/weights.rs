@@ -39,6 +39,24 @@ pub fn primary_opacity(primary: Vec3, secondary: Vec3, eye: Vec3, alone: f32) ->
     1.0 - 0.5 * ((discrepancy / half - alone) / (1.0 - alone)).clamp(0.0, 1.0)
 }
 
+/// The four orientations of least discrepancy angle for an eye in direction `eye` (unit), the nearest first, and the cosines
+/// of these angles. Of fewer, the first is named again, with a cosine of −2.
+pub fn nearest(shape: &SlicingShape, eye: Vec3) -> ([u32; 4], [f32; 4]) {
+    let (mut nearest, mut cosines) = ([0; 4], [-2.0; 4]);
+    for (i, o) in shape.orientations[..shape.upright_count()]
+        .iter()
+        .enumerate()
+    {
+        let cosine = o.direction.dot(eye);
+        if let Some(k) = cosines.iter().position(|other| cosine > *other) {
+            nearest[k..].rotate_right(1);
+            cosines[k..].rotate_right(1);
+            (nearest[k], cosines[k]) = (i as u32, cosine);
+        }
+    }
+    (nearest, cosines)
+}
+
 /// The slicings for an eye in direction `eye` (unit) from the centroid, in the order in which the slices of a rank are
 /// drawn. Weights add up to 1.
 pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS] {
@@ -47,26 +65,10 @@ pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS
         SliceOrder::Steady => ALONE,
         SliceOrder::Paper => 0.0,
     };
-    let count =
-        shape.orientations.len() - usize::from(shape.vertical && shape.orientations.len() > 1);
-    // The four orientations of least discrepancy angle, the nearest first.
-    let mut nearest = [0_usize; 4];
-    let mut cosines = [-2.0_f32; 4];
-    for (i, o) in shape.orientations[..count].iter().enumerate() {
-        let cosine = o.direction.dot(eye);
-        for k in 0..4 {
-            if cosine > cosines[k] {
-                for j in (k + 1..4).rev() {
-                    (nearest[j], cosines[j]) = (nearest[j - 1], cosines[j - 1]);
-                }
-                (nearest[k], cosines[k]) = (i, cosine);
-                break;
-            }
-        }
-    }
+    let (nearest, cosines) = nearest(shape, eye);
     let mut slots = [Slot::default(); SLOTS];
-    for (slot, nearest) in slots.iter_mut().zip(nearest) {
-        slot.orientation = nearest as u32;
+    for (slot, orientation) in slots.iter_mut().zip(nearest) {
+        slot.orientation = orientation;
     }
     if shape.sphere {
         // Three slicings, each fading out where a fourth comes as near: A weight falls to 0 before its slicing is left.
@@ -77,8 +79,8 @@ pub fn slots(shape: &SlicingShape, eye: Vec3, order: SliceOrder) -> [Slot; SLOTS
             slot.weight = gain / sum;
         }
     } else {
-        let direction = |k: usize| shape.orientations[nearest[k]].direction;
-        let primary = match count {
+        let direction = |k: usize| shape.orientations[nearest[k] as usize].direction;
+        let primary = match shape.upright_count() {
             1 => 1.0,
             _ => primary_opacity(direction(0), direction(1), eye, alone),
         };

@@ -42,36 +42,50 @@ fn swapped(slots: array<Slot, 3>, a: u32, b: u32) -> array<Slot, 3> {
     return sorted;
 }
 
+fn upright_count() -> u32 {
+    return crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
+}
+
+// The four orientations of least discrepancy angle, the nearest first.
+struct Nearest {
+    orientations: vec4<u32>,
+    cosines: vec4<f32>,
+}
+
+fn nearest(eye: vec3<f32>) -> Nearest {
+    var orientations = vec4(0u);
+    var cosines = vec4(-2.0);
+    for (var i = 0u; i < upright_count(); i += 1u) {
+        let cosine = dot(crown.orientations[i].direction, eye);
+        if cosine > cosines.x {
+            orientations = vec4(i, orientations.xyz);
+            cosines = vec4(cosine, cosines.xyz);
+        } else if cosine > cosines.y {
+            orientations = vec4(orientations.x, i, orientations.yz);
+            cosines = vec4(cosines.x, cosine, cosines.yz);
+        } else if cosine > cosines.z {
+            orientations = vec4(orientations.xy, i, orientations.z);
+            cosines = vec4(cosines.xy, cosine, cosines.z);
+        } else if cosine > cosines.w {
+            orientations.w = i;
+            cosines.w = cosine;
+        }
+    }
+    return Nearest(orientations, cosines);
+}
+
 fn slots(eye: vec3<f32>) -> array<Slot, 3> {
 #ifdef CROWN_PAPER_ORDER
     let vertical = false;
 #else
     let vertical = crown.vertical != 0u;
 #endif
-    let count = crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
-    // The four orientations of least discrepancy angle, the nearest first.
-    var nearest = vec4(0u);
-    var cosines = vec4(-2.0);
-    for (var i = 0u; i < count; i += 1u) {
-        let cosine = dot(crown.orientations[i].direction, eye);
-        if cosine > cosines.x {
-            nearest = vec4(i, nearest.xyz);
-            cosines = vec4(cosine, cosines.xyz);
-        } else if cosine > cosines.y {
-            nearest = vec4(nearest.x, i, nearest.yz);
-            cosines = vec4(cosines.x, cosine, cosines.yz);
-        } else if cosine > cosines.z {
-            nearest = vec4(nearest.xy, i, nearest.z);
-            cosines = vec4(cosines.xy, cosine, cosines.z);
-        } else if cosine > cosines.w {
-            nearest.w = i;
-            cosines.w = cosine;
-        }
-    }
+    let found = nearest(eye);
+    let cosines = found.cosines;
     var slots: array<Slot, 3>;
-    slots[0].orientation = nearest.x;
-    slots[1].orientation = nearest.y;
-    slots[2].orientation = nearest.z;
+    slots[0].orientation = found.orientations.x;
+    slots[1].orientation = found.orientations.y;
+    slots[2].orientation = found.orientations.z;
     if crown.sphere != 0u {
         let angles = acos(clamp(cosines, vec4(-1.0), vec4(1.0)));
         let gains = max(angles.www - angles.xyz, vec3(1e-6));
@@ -81,9 +95,10 @@ fn slots(eye: vec3<f32>) -> array<Slot, 3> {
         slots[2].weight = weights.z;
     } else {
         var primary = 1.0;
-        if count > 1u {
+        if upright_count() > 1u {
             primary = primary_opacity(
-                crown.orientations[nearest.x].direction, crown.orientations[nearest.y].direction, eye, ALONE);
+                crown.orientations[slots[0].orientation].direction,
+                crown.orientations[slots[1].orientation].direction, eye, ALONE);
         }
         let rise = select(0.0, smoothstep(RISE.x, RISE.y, abs(eye.y)), vertical);
         slots[0].weight = primary * (1.0 - rise);

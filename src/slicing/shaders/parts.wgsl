@@ -3,7 +3,7 @@
 // The discrepancy angle part by part (§4), function by function what blend/parts.rs is.
 
 #import bevy_verdure::slicing::types::crown
-#import bevy_verdure::slicing::blend::{RISE, Slot, slots}
+#import bevy_verdure::slicing::blend::{RISE, Slot, nearest, slots, upright_count}
 
 // Cosine of the angle between two orientations beyond which neither is beside the other.
 const OPPOSITE: f32 = -0.9999;
@@ -45,7 +45,7 @@ fn part_turn(orientation: u32, direction: vec3<f32>) -> vec2<f32> {
     if abs(towards.y) > 0.999 {
         return vec2(0.0, 1.0 - rise);
     }
-    let count = crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
+    let count = upright_count();
     let right = vec3(towards.z, 0.0, -towards.x);
     let discrepancy = atan2(dot(direction, right), dot(direction, towards));
     var next = 0.0;
@@ -94,25 +94,10 @@ fn counts(orientation: u32, direction: vec3<f32>, deviation: vec2<f32>) -> bool 
 
 // The `number`th of the slicings that are drawn: of weight 1 where it counts for any part, else 0.
 fn part_slot(number: u32, direction: vec3<f32>, deviation: vec2<f32>) -> Slot {
-    let count = crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
-    var nearest = vec3(0u);
-    var cosines = vec3(-2.0);
-    for (var i = 0u; i < count; i += 1u) {
-        let cosine = dot(crown.orientations[i].direction, direction);
-        if cosine > cosines.x {
-            nearest = vec3(i, nearest.xy);
-            cosines = vec3(cosine, cosines.xy);
-        } else if cosine > cosines.y {
-            nearest = vec3(nearest.x, i, nearest.y);
-            cosines = vec3(cosines.x, cosine, cosines.y);
-        } else if cosine > cosines.z {
-            nearest.z = i;
-            cosines.z = cosine;
-        }
-    }
-    let low = min(nearest.x, min(nearest.y, nearest.z));
-    let high = max(nearest.x, max(nearest.y, nearest.z));
-    let sorted = array(low, nearest.x + nearest.y + nearest.z - low - high, high, crown.orientation_count - 1u);
+    let found = nearest(direction).orientations;
+    let low = min(found.x, min(found.y, found.z));
+    let high = max(found.x, max(found.y, found.z));
+    let sorted = array(low, found.x + found.y + found.z - low - high, high, crown.orientation_count - 1u);
     let orientation = sorted[number];
     // Of few orientations some are named twice.
     if number > 0u && orientation == sorted[max(number, 1u) - 1u] {

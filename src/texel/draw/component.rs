@@ -116,8 +116,9 @@ pub struct TexelSettings {
     pub quality: TexelQuality,
     /// The same for the views of lights, whose pixels are those of a shadow map. Its `direction` is not used.
     pub shadows: TexelQuality,
-    /// Slices of a finer set in which, within the layer of a slice, is looked up what is seen of it: colours and light are nearly
-    /// those of as many times more slices, outlines stay. From 1, the slice alone, to 16; others are taken for the nearest.
+    /// Slices of a finer set among which, within the layer of a slice, is looked for what is seen of it: colours and light are
+    /// nearly those of as many times more slices, outlines stay. From 1, the slice alone, to 16, rounded down to a power of two;
+    /// others are taken for the nearest. Each doubling costs one look into a texture for a pixel.
     pub inner_slices: u32,
     /// The most slices a texel in any direction, rounded down to a power of two. Memory grows with it.
     pub most_slices: u32,
@@ -172,7 +173,7 @@ impl Default for TexelSettings {
                 pixels: 2.0,
                 ..Default::default()
             },
-            inner_slices: 4,
+            inner_slices: 8,
             most_slices: 256,
             fade: true,
             lighting: PlantLighting::Simple,

@@ -8,7 +8,7 @@ use bevy::mesh::{MeshVertexBufferLayoutRef, PrimitiveTopology};
 use bevy::pbr::{Material, MaterialPipeline, MaterialPipelineKey, MeshPipelineKey};
 use bevy::prelude::*;
 use bevy::render::render_resource::{
-    AsBindGroup, ColorWrites, CompareFunction, RenderPipelineDescriptor, ShaderType,
+    AsBindGroup, BlendState, ColorWrites, CompareFunction, RenderPipelineDescriptor, ShaderType,
     SpecializedMeshPipelineError,
 };
 use bevy::render::storage::ShaderBuffer;
@@ -147,6 +147,15 @@ impl Material for TexelMaterial {
         {
             for target in fragment.targets.iter_mut().flatten() {
                 target.write_mask = ColorWrites::empty();
+            }
+        }
+        if is_main
+            && !own.depth
+            && let Some(fragment) = &mut descriptor.fragment
+        {
+            // What is not there has no alpha.
+            for target in fragment.targets.iter_mut().flatten() {
+                target.blend = Some(BlendState::ALPHA_BLENDING);
             }
         }
         if is_main

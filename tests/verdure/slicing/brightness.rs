@@ -4,7 +4,7 @@ use bevy::prelude::*;
 use bevy_verdure::lab::Studio;
 use bevy_verdure::prelude::*;
 
-use super::{CROWN, SIZE, UNLIT, baked, eye, shot};
+use super::{CROWN, SIZE, UNLIT, baked, eye, mean, plant, plant_mesh, shot, sun};
 
 /// The share of the light from behind that comes through the middle of a crown, from so many degrees off an orientation.
 fn through(studio: &mut Studio, angle: f32) -> f64 {
@@ -51,4 +51,33 @@ fn as_much_shows_through_two_slicings_as_through_one_but_without_the_correction(
     // f_c makes up for the average crown alone; m_s would have to be more for one as dense as this.
     assert!(2.0 * corrected.abs() < plain, "{corrected} {plain}");
     assert!(default.abs() < corrected.abs(), "{default} {corrected}");
+}
+
+#[test]
+fn crowns_seen_from_above_and_below_are_lit_as_their_meshes_are() {
+    let mut studio = Studio::default();
+    sun(&mut studio);
+    let elevations = [-30.0, 0.0, 30.0, 60.0, 90.0];
+    let mut light = |plant: &dyn Fn(&mut Studio) -> Vec<Entity>| {
+        let planted = plant(&mut studio);
+        studio.headless.step();
+        let light = elevations.map(|elevation| {
+            let sides = [20.0, 140.0, 260.0].map(|azimuth| {
+                let look = shot(eye(azimuth, elevation, 16.0));
+                mean(&studio.photograph(&look, Color::BLACK), 1)
+            });
+            sides.iter().sum::<f64>()
+        });
+        for entity in planted {
+            studio.world().despawn(entity);
+        }
+        light
+    };
+    let mesh = light(&|studio| plant_mesh(studio, Transform::IDENTITY, false));
+    let crown = light(&|studio| vec![plant(studio, default(), Transform::IDENTITY)]);
+    let ratios: [f64; 5] = core::array::from_fn(|i| crown[i] / mesh[i]);
+    println!("{ratios:.3?}");
+    let [least, most] = [f64::min, f64::max].map(|pick| ratios.into_iter().reduce(pick));
+    // Nothing turned and no shadows received nearer the eye, 2.6: twice as bright as the mesh from below, darker from above.
+    assert!(most < least.map(|least| 1.5 * least), "{ratios:?}");
 }

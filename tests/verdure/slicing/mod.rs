@@ -22,7 +22,7 @@ use std::sync::LazyLock;
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Pixels, Shot, Studio, broadleaf_crown};
-use bevy_verdure::plants::{Broadleaf, BroadleafMeshes};
+use bevy_verdure::plants::{Broadleaf, BroadleafMeshes, Dice};
 use bevy_verdure::prelude::*;
 
 /// Size of the tests' pictures, in pixels.
@@ -78,6 +78,12 @@ fn eye(azimuth: f32, elevation: f32, distance: f32) -> Vec3 {
     let (sin, cos) = azimuth.to_radians().sin_cos();
     let (rise, level) = elevation.to_radians().sin_cos();
     CROWN.shape().centroid + Vec3::new(level * cos, rise, level * sin) * distance
+}
+
+/// A direction by chance.
+fn unit(dice: &mut Dice) -> Vec3 {
+    let mut jitter = || dice.jitter(1.0);
+    Vec3::new(jitter(), jitter(), jitter()).normalize_or(Vec3::X)
 }
 
 /// Plants the crown.

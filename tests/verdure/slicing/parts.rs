@@ -34,7 +34,7 @@ fn nothing_pops_on_orbits_near_by_nor_where_parts_get_angles_of_their_own() {
         // The target of a slow orbit.
         assert!(largest <= 1.5 * median, "{name}: {largest} {median}");
     };
-    // Past the swap, an orientation, and up past level with the crown.
+    // Past the swap, an orientation, up past level with the crown, and on to where the vertical slicing is alone.
     for distance in [3.5, 5.0, 8.0] {
         for middle in [0.0, 30.0] {
             let turn = |i: i32| filled(middle + 0.25 * (i as f32 + 0.5), 4.0, distance);
@@ -45,6 +45,8 @@ fn nothing_pops_on_orbits_near_by_nor_where_parts_get_angles_of_their_own() {
         }
         let rise = |i: i32| filled(20.0, 0.5 * (i as f32 + 0.5), distance);
         check(&format!("{distance} m, rising"), &mut (-4..16).map(rise));
+        let above = format!("{distance} m, rising to 62°");
+        check(&above, &mut (56..124).map(rise));
     }
     // Where the pipeline of its own takes over.
     let edge = PARTS[1] * CROWN.shape().radius;

@@ -5,6 +5,7 @@ use bevy_verdure::plants::Dice;
 use bevy_verdure::slicing::Orientation;
 use bevy_verdure::slicing::blend::{facing, first_leaf};
 
+use super::unit;
 use crate::compute::run;
 
 /// What runs the shader on cases.
@@ -30,11 +31,6 @@ fn orientation() -> &'static str {
     let from = types.find("struct Orientation {").expect("it is defined");
     let end = types[from..].find("}\n").expect("it ends");
     &types[from..=from + end]
-}
-
-fn unit(dice: &mut Dice) -> Vec3 {
-    let mut jitter = || dice.jitter(1.0);
-    Vec3::new(jitter(), jitter(), jitter()).normalize_or(Vec3::X)
 }
 
 #[test]

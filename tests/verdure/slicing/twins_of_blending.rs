@@ -9,6 +9,7 @@ use bevy_verdure::slicing::blend::{
 };
 use bevy_verdure::slicing::{Orientation, SlicingShape};
 
+use super::unit;
 use crate::compute::run;
 
 /// A uniform of what the functions read, and what runs them on cases.
@@ -93,11 +94,6 @@ fn shape(orientations: &Orientations, vertical: bool) -> SlicingShape {
         vertical,
         orientations: directions.into_iter().map(Orientation::facing).collect(),
     }
-}
-
-fn unit(dice: &mut Dice) -> Vec3 {
-    let mut jitter = || dice.jitter(1.0);
-    Vec3::new(jitter(), jitter(), jitter()).normalize_or(Vec3::X)
 }
 
 #[test]

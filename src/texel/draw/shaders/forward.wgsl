@@ -10,7 +10,7 @@
 #ifdef TEXEL_INNER
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_verdure::texel::inner::look_inside
-#import bevy_verdure::texel::look::{normal_spread, world_normal}
+#import bevy_verdure::texel::look::{covered_samples, normal_spread, world_normal}
 #endif
 #import bevy_verdure::texel::place::{Corner, Varying, place_corner, is_orthographic, view_direction}
 #import bevy_verdure::texel::types::texels
@@ -42,9 +42,10 @@ fn fragment(in: Varying) {
 
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
-    // Slices of another surface may lie at the same depth.
-    _ = seen_samples(in, slice_normal_and_alpha(in).a);
-    let inner = look_inside(in);
+    let own = slice_normal_and_alpha(in);
+    // Slices of another surface may lie at the same depth. They are blended away: to discard them costs software drivers more.
+    let is_seen = covered_samples(in, own.a) != 0u;
+    let inner = look_inside(in, own);
     let seen = inner.color;
     let normal = world_normal(in, inner.normal);
     // Lit and shadowed where the surface is, above the inside that slices show (§4.1).
@@ -70,7 +71,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     color = vec4(simple_light(leaf, seen), 1.0);
 #endif
     color = pbr_functions::main_pass_post_lighting_processing(input, color);
-    return vec4(color.rgb, 1.0);
+    return vec4(color.rgb, select(0.0, 1.0, is_seen));
 }
 
 #endif

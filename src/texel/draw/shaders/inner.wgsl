@@ -4,8 +4,9 @@
 //
 // A slice shows what is in its layer as if all of it were in the middle, up to h/2·tan(a) aside of where it is. Which slices
 // are where does with that; colours, normals and shadows, which change from pixel to pixel, would shimmer. So what is seen is
-// looked up along the view in more slices of the same layer, and of the next one, as relief maps are (F. Policarpo et al.,
-// *Real-Time Relief Mapping on Arbitrary Polygonal Surfaces*, 2005): once a pixel, after depth is drawn.
+// looked for along the view in the finer slices of the same layer, as relief maps are (F. Policarpo et al., *Real-Time Relief
+// Mapping on Arbitrary Polygonal Surfaces*, 2005): once a pixel, after depth is drawn. Sets of slices are nested, so that it
+// takes one look to halve a layer, and not one for each slice in it.
 
 #import bevy_verdure::texel::place::{AXIS, Varying}
 #import bevy_verdure::texel::types::{color_texture, level_sampler, normal_texture, slice_sampler, texels}
@@ -18,7 +19,8 @@ struct Inner {
     along: f32,
 }
 
-fn look_inside(in: Varying) -> Inner {
+// Of a slice that shows this normal, and alpha, itself.
+fn look_inside(in: Varying, own: vec4<f32>) -> Inner {
     let size = vec2<f32>(textureDimensions(normal_texture));
     let dx = dpdx(in.uv) * size;
     let dy = dpdy(in.uv) * size;
@@ -27,8 +29,8 @@ fn look_inside(in: Varying) -> Inner {
     let count = 1u << firstLeadingBit(in.layer + 1u);
     let slice = in.layer + 1u - count;
     let most = (textureNumLayers(normal_texture) + 1u) / 2u;
-    let inner = i32(min(most / count, 1u << firstLeadingBit(texels.inner_slices)));
-    let all = i32(count) * inner;
+    let finest = min(most, count << firstLeadingBit(texels.inner_slices));
+    let middle = (f32(slice) + 0.5) / f32(count);
     // Columns, rows, and across slices.
     var way = in.view_in_volume;
     if AXIS == 0u {
@@ -36,30 +38,40 @@ fn look_inside(in: Varying) -> Inner {
     } else if AXIS == 1u {
         way = way.xzy;
     }
-    var uv = in.uv;
-    var layer = in.layer;
-    var along = 0.0;
-    // Alone, a slice is what it shows.
-    let steps = select(2 * inner, 0, inner == 1);
-    for (var i = 0; i < steps; i += 1) {
-        let step = select(inner - 1 - i, i, way.z > 0.0);
-        let reach = ((f32(step) + 0.5) / f32(inner) - 0.5) / (f32(count) * way.z);
-        let at = in.uv + clamp(way.xy * reach, vec2(-0.5), vec2(0.5));
-        let number = i32(slice) * inner + step;
-        // Along w there is nothing beyond; along u and v texels repeat.
-        let is_in = select(at.y >= 0.0 && at.y <= 1.0, number >= 0 && number < all, AXIS == 2u);
-        let at_layer = u32(all - 1 + (number & (all - 1)));
-        let alpha = textureSampleLevel(normal_texture, level_sampler, at, at_layer, level).a;
-        if is_in && alpha >= 0.5 {
-            uv = at;
-            layer = at_layer;
-            along = reach;
-            break;
-        }
+    // Of the two slices of twice as many that a layer consists of: which is the nearer one.
+    let nearer = select(1u, 0u, way.z > 0.0);
+    var number = slice;
+    var half_count = count;
+    while half_count < finest {
+        half_count *= 2u;
+        let near = 2u * number + nearer;
+        let at = in.uv + aside(way, near, half_count, middle);
+        let alpha = textureSampleLevel(normal_texture, level_sampler, at, half_count - 1u + near, level).a;
+        number = select(near ^ 1u, near, is_in_volume(at) && alpha >= 0.5);
     }
+    let at = in.uv + aside(way, number, half_count, middle);
+    let found = textureSampleLevel(normal_texture, level_sampler, at, half_count - 1u + number, level);
+    let is_there = is_in_volume(at) && found.a >= 0.5;
+    let uv = select(in.uv, at, is_there);
+    let layer = select(in.layer, half_count - 1u + number, is_there);
     return Inner(
         textureSampleLevel(color_texture, slice_sampler, uv, layer, level).rgb,
-        textureSampleLevel(normal_texture, slice_sampler, uv, layer, level).xyz,
-        along,
+        select(own.xyz, found.xyz, is_there),
+        select(0.0, reach(way, number, half_count, middle), is_there),
     );
+}
+
+// How far along the view a slice is from the middle of a layer.
+fn reach(way: vec3<f32>, number: u32, count: u32, middle: f32) -> f32 {
+    return ((f32(number) + 0.5) / f32(count) - middle) / way.z;
+}
+
+// How far aside, in columns and rows. Seen along themselves slices say nothing of what is beside.
+fn aside(way: vec3<f32>, number: u32, count: u32, middle: f32) -> vec2<f32> {
+    return clamp(way.xy * reach(way, number, count, middle), vec2(-0.5), vec2(0.5));
+}
+
+// Rows of upright slices are heights, which end.
+fn is_in_volume(at: vec2<f32>) -> bool {
+    return AXIS == 2u || at.y >= 0.0 && at.y <= 1.0;
 }
