@@ -1,17 +1,12 @@
 //! Mip levels of opaque-or-empty slices, which keep their coverage.
 //!
-//! A pixel of level m is opaque in part. The paper allows no half-transparent pixels, and rounding each would lose
-//! what is thin and swell what is thick. So each slice of a level has as many opaque pixels as its coverage of level
-//! 0 asks for, and they are those that are opaque for the most part (the idea of I. Castaño, *Computing Alpha
-//! Mipmaps*, 2010, with a rank in place of a threshold, so that the number is exact). What rounding takes from one
-//! slice the next one gets, so that thin volumes do not vanish. Ties go round by a lattice of low discrepancy.
-//!
 //! Colours and normals are means over as much in depth, across slices, as pixels are wide: else what is seen aslant would be
 //! filtered along the slices and not across them, and shimmer. Means of normals are the shorter the more these differ, which
 //! is what light is worked out from (`lighting/simple.wgsl`).
 
 use super::super::color::SrgbTable;
 use super::super::parallel;
+use super::choice::Chosen;
 use super::{PixelSum, SliceLevel};
 
 /// What pixels of level 0 are in depth.
@@ -23,37 +18,29 @@ pub(super) struct Depth {
     pub repeats: bool,
 }
 
-/// All levels of slices that have `size` pixels at level 0.
+/// All levels of slices that have `size` pixels at level 0, of which those `chosen` are opaque.
 pub(super) fn levels(
     slices: Vec<Vec<PixelSum>>,
+    chosen: &[Chosen],
     size: [u32; 2],
     depth: Depth,
     table: &SrgbTable,
 ) -> Vec<SliceLevel> {
-    let opaque = slices
-        .iter()
-        .map(|slice| slice.iter().map(|pixel| u64::from(pixel.opaque)).sum());
-    let opaque: Vec<u64> = opaque.collect();
     let mut levels = Vec::new();
     let mut size = size;
     let mut pixels_each = 1;
     let mut current = slices;
-    loop {
-        let counts = rounded(&opaque, pixels_each);
+    for chosen in chosen {
         let encoded = parallel::map(current.len(), |slice| {
             let pixels = &current[slice];
-            let chosen = if pixels_each == 1 {
-                pixels.iter().map(|pixel| pixel.opaque > 0).collect()
-            } else {
-                choose(pixels, size, slice, counts[slice])
-            };
+            let chosen = &chosen[slice];
             // Pixels grow by as much along as across.
             let reach = (0.5 * depth.pixel * (pixels_each as f32).sqrt()) as usize;
             if reach == 0 {
-                encode(pixels, &chosen, size, table)
+                encode(pixels, chosen, size, table)
             } else {
                 let thick = thickened(&current, slice, reach, depth.repeats);
-                encode(&thick, &chosen, size, table)
+                encode(&thick, chosen, size, table)
             }
         });
         let (colors, normals) = encoded.into_iter().flatten().unzip();
@@ -62,62 +49,13 @@ pub(super) fn levels(
             colors,
             normals,
         });
-        if size == [1, 1] {
-            return levels;
-        }
         current = parallel::map(current.len(), |slice| half(&current[slice], size));
         // Sides are powers of two.
         let halved = size.map(|side| (side / 2).max(1));
         pixels_each *= u64::from(size[0] / halved[0] * (size[1] / halved[1]));
         size = halved;
     }
-}
-
-/// How many pixels of each slice are opaque, of which each stands for `pixels_each`: sums are rounded, and not the
-/// numbers themselves.
-fn rounded(opaque: &[u64], pixels_each: u64) -> Vec<usize> {
-    let (mut sum, mut before) = (0, 0);
-    let counts = opaque.iter().map(|count| {
-        sum += count;
-        let until = (sum + pixels_each / 2) / pixels_each;
-        let count = until - before;
-        before = until;
-        count as usize
-    });
-    counts.collect()
-}
-
-/// Which pixels are opaque: the `count` that are so for the most part.
-fn choose(pixels: &[PixelSum], size: [u32; 2], slice: usize, count: usize) -> Vec<bool> {
-    let mut chosen = vec![false; pixels.len()];
-    let mut ranked: Vec<u64> = Vec::new();
-    for (index, pixel) in pixels.iter().enumerate() {
-        if pixel.opaque > 0 {
-            let tie = lattice(index as u32 % size[0], index as u32 / size[0], slice as u32);
-            ranked.push(u64::from(!pixel.opaque) << 32 | u64::from(tie));
-        }
-    }
-    // Rounding of sums may ask for a pixel more than a slice has; the last slices make up for it or lose it.
-    let count = count.min(ranked.len());
-    let limit = match count {
-        0 => return chosen,
-        _ => *ranked.select_nth_unstable(count - 1).1,
-    };
-    for (index, pixel) in pixels.iter().enumerate() {
-        let tie = lattice(index as u32 % size[0], index as u32 / size[0], slice as u32);
-        chosen[index] =
-            pixel.opaque > 0 && (u64::from(!pixel.opaque) << 32 | u64::from(tie)) <= limit;
-    }
-    chosen
-}
-
-/// A number for each pixel, spread evenly over neighbours in a slice and in the next: multiples of the powers of the
-/// plastic number (M. Roberts, *The Unreasonable Effectiveness of Quasirandom Sequences*, 2018), and of the golden
-/// ratio. Odd factors keep the numbers of a row apart.
-fn lattice(x: u32, y: u32, slice: u32) -> u32 {
-    x.wrapping_mul(3_242_174_889)
-        .wrapping_add(y.wrapping_mul(2_447_445_413))
-        .wrapping_add(slice.wrapping_mul(2_654_435_769))
+    levels
 }
 
 /// Twice the sums of a slice's pixels with those of `reach` slices on either side, of which the outermost count half.

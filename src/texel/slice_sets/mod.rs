@@ -8,6 +8,7 @@
 //! Slice k of N stands in the middle of its layer, at (k + ½)/N.
 
 mod boxes;
+mod choice;
 mod mips;
 
 use bevy::math::Vec3;
@@ -18,6 +19,7 @@ use super::axis::SliceAxis;
 use super::color::{SrgbTable, decode_normal, encode_mean_normal};
 use super::parallel;
 use super::volume::ReferenceVolume;
+use choice::Chosen;
 
 /// Slices along one axis, the first at 0. Their pixels are opaque, with alpha 255, or empty; empty ones beside opaque
 /// ones have their colour, so that filtered edges do not darken.
@@ -68,10 +70,16 @@ impl SliceSet {
     pub fn new(volume: &ReferenceVolume, axis: SliceAxis, count: u32) -> Self {
         let most = volume.size()[axis.index()];
         let count = count.clamp(1, most).next_power_of_two();
-        Self::of_layers(volume, axis, &layers(volume, axis, count))
+        let (sets, chosen) = sets_of_layers(volume, axis, count);
+        Self::of_layers(volume, axis, &sets[sets.len() - 1], &chosen[sets.len() - 1])
     }
 
-    fn of_layers(volume: &ReferenceVolume, axis: SliceAxis, layers: &[Vec<Ends>]) -> Self {
+    fn of_layers(
+        volume: &ReferenceVolume,
+        axis: SliceAxis,
+        layers: &[Vec<Ends>],
+        chosen: &[Chosen],
+    ) -> Self {
         let table = SrgbTable::new();
         let slices = parallel::map(layers.len(), |slice| {
             let pixels = layers[slice].iter();
@@ -91,7 +99,7 @@ impl SliceSet {
         Self {
             axis,
             count: layers.len() as u32,
-            levels: mips::levels(slices, size, depth, &table),
+            levels: mips::levels(slices, chosen, size, depth, &table),
         }
     }
 
@@ -125,6 +133,31 @@ fn layers(volume: &ReferenceVolume, axis: SliceAxis, count: u32) -> Vec<Vec<Ends
         }
         pixels
     })
+}
+
+/// What is behind each pixel of 1, 2, 4 and so on up to `count` layers, and what is opaque in their mip levels.
+fn sets_of_layers(
+    volume: &ReferenceVolume,
+    axis: SliceAxis,
+    count: u32,
+) -> (Vec<Vec<Vec<Ends>>>, Vec<Vec<Chosen>>) {
+    let mut sets = vec![layers(volume, axis, count)];
+    while sets[sets.len() - 1].len() > 1 {
+        sets.push(merged(&sets[sets.len() - 1]));
+    }
+    sets.reverse();
+    let size = axis.in_plane().map(|axis| volume.size()[axis.index()]);
+    let coverages = sets.iter().map(|layers| {
+        let opaque = parallel::map(layers.len(), |slice| {
+            let pixels = layers[slice].iter();
+            pixels
+                .map(|&[first, _]| u32::from(first != NO_VOXEL))
+                .collect()
+        });
+        choice::coverage(opaque, size)
+    });
+    let chosen = choice::choose(&coverages.collect::<Vec<_>>());
+    (sets, chosen)
 }
 
 /// Half as many layers, each of two.
@@ -198,14 +231,10 @@ impl SliceSets {
     pub fn new(volume: &ReferenceVolume, most: u32) -> Self {
         let sets = SliceAxis::ALL.map(|axis| {
             let most = volume.size()[axis.index()].min(most.max(1));
-            let mut layers = layers(volume, axis, 1 << most.ilog2());
-            let mut sets = vec![SliceSet::of_layers(volume, axis, &layers)];
-            while layers.len() > 1 {
-                layers = merged(&layers);
-                sets.push(SliceSet::of_layers(volume, axis, &layers));
-            }
-            sets.reverse();
-            sets
+            let (sets, chosen) = sets_of_layers(volume, axis, 1 << most.ilog2());
+            let sets = sets.iter().zip(&chosen);
+            sets.map(|(layers, chosen)| SliceSet::of_layers(volume, axis, layers, chosen))
+                .collect()
         });
         Self { sets }
     }

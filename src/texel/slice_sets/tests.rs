@@ -124,6 +124,47 @@ fn mip_levels_keep_the_share_of_opaque_pixels() {
 }
 
 #[test]
+fn in_mip_levels_too_a_slice_shows_what_the_two_show_that_it_is_merged_of() {
+    let size = UVec3::new(64, 64, 16);
+    // A ball, and ground with grass.
+    let volume = volume(size, |at| {
+        let blade = (at.x as u32 * 7 + at.y as u32 * 3).is_multiple_of(11);
+        let ball = at.distance(Vec3::new(40.0, 30.0, 8.0)) < 6.0;
+        at.z < 2.0 || ball || (blade && at.z < 5.0 + (at.x * at.y) % 7.0)
+    });
+    let sets = SliceSets::new(&volume, 64);
+    for axis in SliceAxis::ALL {
+        for count in [1, 2, 4, 8].map(|halves| size[axis.index()] / halves) {
+            let [fine, merged] = [sets.get(axis, count), sets.get(axis, count / 2)];
+            for (level, (fine, merged)) in fine.levels.iter().zip(&merged.levels).enumerate() {
+                let [width, height] = fine.size;
+                let is = |level: &SliceLevel, slice, i| {
+                    level.colors[level.index(slice, i % width, i / width)][3] != 0
+                };
+                let mut other = 0;
+                for slice in 0..count / 2 {
+                    let all = 0..width * height;
+                    other += all
+                        .filter(|&i| {
+                            let both = is(fine, 2 * slice, i) || is(fine, 2 * slice + 1, i);
+                            both != is(merged, slice, i)
+                        })
+                        .count() as u32;
+                }
+                // Rounding moves a pixel here and there. Slices of few pixels have less than one each, and take turns.
+                if width * height >= 64 {
+                    let all = opaque(merged);
+                    assert!(
+                        other * 50 <= all as u32,
+                        "{axis:?} {count}, level {level}: {other} of {all}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn levels_shrink_to_one_pixel_and_keep_their_colour() {
     let volume = volume(UVec3::new(32, 8, 4), |_| true);
     let set = SliceSet::new(&volume, SliceAxis::W, 4);
