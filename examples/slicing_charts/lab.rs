@@ -3,7 +3,8 @@
 use bevy::light::CascadeShadowConfigBuilder;
 use bevy::prelude::*;
 use bevy_verdure::lab::{
-    Billboard, GpuClockPlugin, Impostor, ImpostorPlugin, Studio, adapter_name, broadleaf_crown,
+    Billboard, GpuClockPlugin, Impostor, ImpostorPlugin, SUNLIGHT, Studio, adapter_name,
+    broadleaf_crown,
 };
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
@@ -67,7 +68,7 @@ impl Lab {
                 ..default()
             }
             .build(),
-            Transform::default().looking_to(Vec3::new(-0.7, -0.85, -0.35), Vec3::Y),
+            Transform::default().looking_to(SUNLIGHT, Vec3::Y),
         ));
         let mut meshes = world.resource_mut::<Assets<Mesh>>();
         let [solid, twigs, leaves] =

@@ -1,6 +1,7 @@
 //! Whether a crown near by differs from its mesh by how much it covers or by how it is lit, and by which light.
 
 use bevy::prelude::*;
+use bevy_verdure::lab::SUNLIGHT;
 use bevy_verdure::lab::charts::{Axis, Chart, Series};
 use bevy_verdure::prelude::*;
 
@@ -116,9 +117,11 @@ pub fn light_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
     };
     let camera = lab.studio.camera();
     lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
-    let usual = Vec3::new(-0.7, -0.85, -0.35);
     let mut lines = Vec::new();
-    for (name, towards) in [("sun of the grove", usual), ("sun overhead", Vec3::NEG_Y)] {
+    for (name, towards) in [
+        ("sun of the grove", SUNLIGHT),
+        ("sun overhead", Vec3::NEG_Y),
+    ] {
         let world = lab.studio.world();
         let mut suns = world.query_filtered::<&mut Transform, With<DirectionalLight>>();
         for mut sun in suns.iter_mut(world) {

@@ -12,7 +12,6 @@ use bevy::core_pipeline::prepass::DepthPrepass;
 use bevy::light::NotShadowCaster;
 use bevy::mesh::skinning::SkinnedMeshInverseBindposes;
 use bevy::prelude::*;
-use bevy::render::render_resource::Face;
 use bevy_verdure::lab::CommonArgs;
 use bevy_verdure::lab::texel_scenes::{TexelScene, bend_knees, joints, surfaces};
 use bevy_verdure::prelude::*;
@@ -127,10 +126,6 @@ fn run(args: &Args) -> Result<(), String> {
                             settings,
                             surface.place,
                         ));
-                        let is_flag = scene == TexelScene::Flag;
-                        if is_flag {
-                            entity.insert(LiveTexels);
-                        }
                         if let Some(skin) = skin {
                             entity.insert(skin);
                         }
@@ -142,12 +137,13 @@ fn run(args: &Args) -> Result<(), String> {
                                 base_color: color,
                                 perceptual_roughness: 1.0,
                                 // Of a flag the cloth is seen behind.
-                                double_sided: is_flag,
-                                cull_mode: (!is_flag).then_some(Face::Back),
+                                double_sided: true,
+                                cull_mode: None,
                                 ..default()
                             })));
                         }
-                        if is_flag {
+                        if scene == TexelScene::Flag {
+                            entity.insert(LiveTexels);
                             let pole = Cylinder::new(0.025, 2.0);
                             let at = surface.place * Vec3::new(-0.83, 0.0, 0.0);
                             commands.spawn((

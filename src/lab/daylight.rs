@@ -6,6 +6,9 @@ use bevy::prelude::*;
 /// Colour of the sky, and of what fades into it.
 pub const SKY: Color = Color::srgb(0.62, 0.82, 1.0);
 
+/// Where the sun shines; of any length.
+pub const SUNLIGHT: Vec3 = Vec3::new(-0.7, -0.85, -0.35);
+
 /// Spawns ground at y = 0 and a sun, in a sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Daylight {
@@ -63,7 +66,7 @@ impl Daylight {
                 ..default()
             }
             .build(),
-            Transform::default().looking_to(Vec3::new(-0.7, -0.85, -0.35), Vec3::Y),
+            Transform::default().looking_to(SUNLIGHT, Vec3::Y),
         ));
     }
 }

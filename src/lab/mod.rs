@@ -33,7 +33,7 @@ pub use broadleaf_crown::broadleaf_crown;
 pub use capture::{Pixels, load_png};
 pub use checkout::checkout;
 pub use compare::mean_flip;
-pub use daylight::{Daylight, SKY};
+pub use daylight::{Daylight, SKY, SUNLIGHT};
 pub use error::GeometryError;
 pub use exr_file::save_exr;
 pub use headless::{Headless, adapter_name, wait_for_gpu};

@@ -64,6 +64,11 @@ impl SlicingShape {
         count - usize::from(self.vertical && count > 1)
     }
 
+    /// Whether slices that look `towards` a direction (unit) stand upright, round the circle or an arc of it.
+    pub fn is_upright(&self, towards: Vec3) -> bool {
+        !self.sphere && towards.y.abs() < 0.01
+    }
+
     /// Slices of all levels and orientations.
     pub fn layers(&self) -> usize {
         let slices: u64 = self.levels.iter().map(|slices| u64::from(*slices)).sum();

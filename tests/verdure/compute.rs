@@ -11,7 +11,7 @@ use bevy::render::render_resource::{
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy_verdure::lab::Headless;
 
-/// How entries read cases and write results.
+/// How `work` reads cases and writes results, and is run on each case.
 const HELPERS: &str = r"
 fn vector(i: u32, at: u32) -> vec3<f32> {
     return vec3(cases[i][at], cases[i][at + 1u], cases[i][at + 2u]);
@@ -22,17 +22,28 @@ fn put(i: u32, at: u32, value: vec3<f32>) {
     results[i][at + 1u] = value.y;
     results[i][at + 2u] = value.z;
 }
+
+@compute @workgroup_size(64)
+fn run(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x < arrayLength(&cases) {
+        work(id.x);
+    }
+}
 ";
 
-/// Runs a shader in parts, of which the last has an entry `run` for each 64 of the `cases`, storage 0:0, that writes the
-/// `results`, 0:1. Lines for naga_oil are left out: imports are all in one piece here.
+/// Runs a shader in parts, of which the last has a function `work` that reads the case of a number, `cases[i]`, and writes
+/// `results[i]`. Lines for naga_oil are left out: imports are all in one piece here.
 pub fn run<const N: usize, const M: usize>(parts: &[&str], cases: &[[f32; N]]) -> Vec<[f32; M]> {
     let mut headless = Headless::new(Duration::ZERO, |_| {});
     headless.step();
     let world = headless.world();
     let device = world.resource::<RenderDevice>().clone();
     let queue = world.resource::<RenderQueue>().clone();
-    let lines = [HELPERS]
+    let storage = format!(
+        "@group(0) @binding(0) var<storage, read> cases: array<array<f32, {N}>>;
+         @group(0) @binding(1) var<storage, read_write> results: array<array<f32, {M}>>;"
+    );
+    let lines = [&storage, HELPERS]
         .into_iter()
         .chain(parts.iter().copied())
         .flat_map(str::lines);

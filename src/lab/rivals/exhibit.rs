@@ -8,6 +8,7 @@ use super::dress::Wardrobe;
 use super::weight::Weight;
 use super::{March, Rival};
 use crate::frusta::{MeshError, MeshRelief};
+use crate::lab::daylight::SUNLIGHT;
 use crate::lab::headless::Headless;
 use crate::plants::{Place, PlantPart, Planting};
 use crate::prelude::*;
@@ -77,7 +78,7 @@ impl Exhibit {
                 ..default()
             }
             .build(),
-            Transform::default().looking_to(Vec3::new(-0.7, -0.85, -0.35), Vec3::Y),
+            Transform::default().looking_to(SUNLIGHT, Vec3::Y),
         ));
         let stage = vec![ground, sun.id()];
         Self {

@@ -18,7 +18,7 @@ pub const AHEAD: [f32; 2] = [0.35, 0.12];
 /// Where the leaves of a slice look in the mean, that look to its `front` (unit) for an eye there, for an eye in a `direction` (unit):
 /// from upright slices up or down, from others as they were baked.
 pub fn leaning(shape: &SlicingShape, front: Vec3, direction: Vec3) -> Vec3 {
-    if shape.sphere || front.y.abs() >= 0.01 {
+    if !shape.is_upright(front) {
         return front;
     }
     let rise = (LEAN * direction.y.clamp(-1.0, 1.0).asin()).clamp(-FRAC_PI_2, FRAC_PI_2);

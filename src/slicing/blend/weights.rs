@@ -120,7 +120,7 @@ pub fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
 /// meets on its way through a crown as many leaves as ever, but of upright slices as many fewer as the cosine of the elevation says.
 /// So each counts for that many more (Beer and Lambert), up to twice; further up the vertical slicing is alone.
 pub fn slanted(shape: &SlicingShape, weight: f32, towards: Vec3, direction: Vec3) -> f32 {
-    if shape.sphere || towards.y.abs() >= 0.01 {
+    if !shape.is_upright(towards) {
         return weight;
     }
     weight / Vec2::new(direction.x, direction.z).length().max(0.5)

@@ -46,6 +46,10 @@ fn upright_count() -> u32 {
     return crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
 }
 
+fn is_upright(towards: vec3<f32>) -> bool {
+    return crown.sphere == 0u && abs(towards.y) < 0.01;
+}
+
 // The four orientations of least discrepancy angle, the nearest first.
 struct Nearest {
     orientations: vec4<u32>,
@@ -135,8 +139,10 @@ fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
 }
 
 fn slanted(weight: f32, towards: vec3<f32>, direction: vec3<f32>) -> f32 {
-    let level = length(direction.xz);
-    return weight / select(1.0, max(level, 0.5), crown.sphere == 0u && abs(towards.y) < 0.01);
+    if !is_upright(towards) {
+        return weight;
+    }
+    return weight / max(length(direction.xz), 0.5);
 }
 
 fn covered(alpha: f32, weight: f32) -> f32 {

@@ -2,14 +2,14 @@
 
 // How the leaves of a slice are lit for an eye above or below, function by function what blend/seen.rs is.
 
-#import bevy_verdure::slicing::types::crown
+#import bevy_verdure::slicing::blend::is_upright
 
 const LEAN: f32 = 1.25;
 const STEEPEST: f32 = 1.5707964;
 const AHEAD: vec2<f32> = vec2(0.35, 0.12);
 
 fn leaning(front: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
-    if crown.sphere != 0u || abs(front.y) >= 0.01 {
+    if !is_upright(front) {
         return front;
     }
     let rise = clamp(LEAN * asin(clamp(direction.y, -1.0, 1.0)), -STEEPEST, STEEPEST);

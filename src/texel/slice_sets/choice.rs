@@ -10,6 +10,7 @@
 //! count would show other pixels, and what is looked for in the layer of a slice would not be there.
 
 use super::super::parallel;
+use super::half::{half, halved};
 
 /// How many pixels of level 0 are opaque, of those that each pixel of a mip level stands for.
 pub(super) struct Coverage {
@@ -31,24 +32,14 @@ pub(super) fn coverage(opaque: Vec<Vec<u32>>, size: [u32; 2]) -> Vec<Coverage> {
     }];
     while levels[levels.len() - 1].size != [1, 1] {
         let fine = &levels[levels.len() - 1];
-        // Sides are powers of two.
-        let size = fine.size.map(|side| (side / 2).max(1));
-        let steps = [fine.size[0] / size[0], fine.size[1] / size[1]];
-        let slices = parallel::map(fine.slices.len(), |slice| {
-            let pixels = (0..size[0] * size[1]).map(|i| [i % size[0], i / size[0]]);
-            let sum = |[column, row]: [u32; 2]| {
-                let near = (0..steps[0] * steps[1]).map(|i| [i % steps[0], i / steps[0]]);
-                let indices = near
-                    .map(|[dx, dy]| (row * steps[1] + dy) * fine.size[0] + column * steps[0] + dx);
-                indices.map(|i| fine.slices[slice][i as usize]).sum()
-            };
-            pixels.map(sum).collect()
-        });
-        let pixels_each = fine.pixels_each * u64::from(steps[0] * steps[1]);
+        let size = halved(fine.size);
+        let ratio = fine.size[0] * fine.size[1] / (size[0] * size[1]);
         levels.push(Coverage {
             size,
-            pixels_each,
-            slices,
+            pixels_each: fine.pixels_each * u64::from(ratio),
+            slices: parallel::map(fine.slices.len(), |slice| {
+                half(&fine.slices[slice], fine.size, |sum, opaque| *sum += opaque)
+            }),
         });
     }
     levels
@@ -139,7 +130,7 @@ impl Merged<'_> {
         let (shared, single): (Vec<usize>, Vec<usize>) =
             members.iter().partition(|&&i| near[i] > 0 && far[i] > 0);
         let in_both = (total - members.len()).min(counts[0]).min(counts[1]);
-        let overlap = |i: usize| near[i] + far[i] - self.opaque[i].min(near[i] + far[i]);
+        let overlap = |i: usize| near[i] + far[i] - self.opaque[i];
         let ranked = shared.iter().map(|&i| (rank(overlap(i), tie(i)), i));
         let (both, either) = first(ranked.collect(), in_both);
         let mut halves = [vec![false; near.len()], vec![false; far.len()]];
@@ -147,16 +138,17 @@ impl Merged<'_> {
             halves[0][i] = true;
             halves[1][i] = true;
         }
-        // Others the one that has more of it.
-        let mut only = [0, 0];
-        for i in single {
-            let half = usize::from(near[i] == 0);
-            halves[half][i] = true;
-            only[half] += 1;
+        // Others the one that has them, or more of them.
+        let (only_near, only_far): (Vec<usize>, Vec<usize>) =
+            single.iter().partition(|&&i| near[i] > 0);
+        for (half, indices) in [only_near, only_far].iter().enumerate() {
+            for &i in indices {
+                halves[half][i] = true;
+            }
         }
-        let wanted = counts[0].saturating_sub(both.len() + only[0]);
-        let share = |i: usize| near[i] as i64 - far[i] as i64 + i64::from(u32::MAX / 2);
-        let ranked = either.iter().map(|&i| (rank(share(i) as u32, tie(i)), i));
+        let wanted = counts[0].saturating_sub(halves[0].iter().filter(|&&is| is).count());
+        let share = |i: usize| u32::MAX / 2 + near[i] - far[i];
+        let ranked = either.iter().map(|&i| (rank(share(i), tie(i)), i));
         let (nearer, farther) = first(ranked.collect(), wanted);
         for (half, indices) in [nearer, farther].into_iter().enumerate() {
             for i in indices {

@@ -1,4 +1,4 @@
-//! Mip levels of opaque-or-empty slices, which keep their coverage.
+//! Mip levels of slices: what their pixels show, of which `choice.rs` tells whether they are opaque.
 //!
 //! Colours and normals are means over as much in depth, across slices, as pixels are wide: else what is seen aslant would be
 //! filtered along the slices and not across them, and shimmer. Means of normals are the shorter the more these differ, which
@@ -7,6 +7,7 @@
 use super::super::color::SrgbTable;
 use super::super::parallel;
 use super::choice::Chosen;
+use super::half::{half, halved};
 use super::{PixelSum, SliceLevel};
 
 /// What pixels of level 0 are in depth.
@@ -27,15 +28,16 @@ pub(super) fn levels(
     table: &SrgbTable,
 ) -> Vec<SliceLevel> {
     let mut levels = Vec::new();
+    let pixels_of = |[width, height]: [u32; 2]| (width * height) as f32;
+    let all = pixels_of(size);
     let mut size = size;
-    let mut pixels_each = 1;
     let mut current = slices;
     for chosen in chosen {
         let encoded = parallel::map(current.len(), |slice| {
             let pixels = &current[slice];
             let chosen = &chosen[slice];
             // Pixels grow by as much along as across.
-            let reach = (0.5 * depth.pixel * (pixels_each as f32).sqrt()) as usize;
+            let reach = (0.5 * depth.pixel * (all / pixels_of(size)).sqrt()) as usize;
             if reach == 0 {
                 encode(pixels, chosen, size, table)
             } else {
@@ -49,11 +51,10 @@ pub(super) fn levels(
             colors,
             normals,
         });
-        current = parallel::map(current.len(), |slice| half(&current[slice], size));
-        // Sides are powers of two.
-        let halved = size.map(|side| (side / 2).max(1));
-        pixels_each *= u64::from(size[0] / halved[0] * (size[1] / halved[1]));
-        size = halved;
+        current = parallel::map(current.len(), |slice| {
+            half(&current[slice], size, |sum, pixel| sum.add(pixel, 1))
+        });
+        size = halved(size);
     }
     levels
 }
@@ -76,27 +77,6 @@ fn thickened(slices: &[Vec<PixelSum>], slice: usize, reach: usize, repeats: bool
         let times = if offset.abs() == reach { 1 } else { 2 };
         for (sum, pixel) in sums.iter_mut().zip(&slices[near]) {
             sum.add(pixel, times);
-        }
-    }
-    sums
-}
-
-/// Sums of 2×2 pixels, or of two where one side is a pixel already.
-fn half(pixels: &[PixelSum], size: [u32; 2]) -> Vec<PixelSum> {
-    let halved = size.map(|side| (side / 2).max(1));
-    let steps = [size[0] / halved[0], size[1] / halved[1]];
-    let mut sums = Vec::with_capacity((halved[0] * halved[1]) as usize);
-    for row in 0..halved[1] {
-        for column in 0..halved[0] {
-            let mut sum = PixelSum::default();
-            for dy in 0..steps[1] {
-                for dx in 0..steps[0] {
-                    let (x, y) = (column * steps[0] + dx, row * steps[1] + dy);
-                    let pixel = &pixels[(y * size[0] + x) as usize];
-                    sum.add(pixel, 1);
-                }
-            }
-            sums.push(sum);
         }
     }
     sums

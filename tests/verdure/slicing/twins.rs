@@ -9,16 +9,8 @@ use super::unit;
 use crate::compute::run;
 
 /// What runs the shader on cases.
-const ENTRY: &str = r"
-@group(0) @binding(0) var<storage, read> cases: array<array<f32, 24>>;
-@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 4>>;
-
-@compute @workgroup_size(64)
-fn run(@builtin(global_invocation_id) id: vec3<u32>) {
-    let i = id.x;
-    if i >= arrayLength(&cases) {
-        return;
-    }
+const WORK: &str = r"
+fn work(i: u32) {
     let o = Orientation(vector(i, 0u), vector(i, 3u), vector(i, 6u), vector(i, 9u), vector(i, 12u));
     put(i, 0u, facing(o, vector(i, 15u), vector(i, 18u)));
     results[i][3] = first_leaf(cases[i][21], cases[i][22]);
@@ -57,7 +49,7 @@ fn shaders_cast_shadows_as_rust_does() {
         })
         .collect();
     let shader = include_str!("../../../src/slicing/shaders/cast.wgsl");
-    let results: Vec<[f32; 4]> = run(&[orientation(), shader, ENTRY], &floats);
+    let results: Vec<[f32; 4]> = run(&[orientation(), shader, WORK], &floats);
     for ((o, light, place, lot, alpha), found) in cases.iter().zip(results) {
         let expected = facing(o, *light, *place);
         // Roundings at the size of what is cast, and where the axis is the difference of two directions that are nearly the

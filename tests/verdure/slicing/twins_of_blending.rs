@@ -13,7 +13,7 @@ use super::unit;
 use crate::compute::run;
 
 /// A uniform of what the functions read, and what runs them on cases.
-const ENTRY: &str = r"
+const WORK: &str = r"
 struct Facing { direction: vec3<f32> }
 
 struct Shape {
@@ -27,15 +27,7 @@ struct Shape {
 
 var<private> crown: Shape;
 
-@group(0) @binding(0) var<storage, read> cases: array<array<f32, 40>>;
-@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 28>>;
-
-@compute @workgroup_size(64)
-fn run(@builtin(global_invocation_id) id: vec3<u32>) {
-    let i = id.x;
-    if i >= arrayLength(&cases) {
-        return;
-    }
+fn work(i: u32) {
     crown.orientation_count = u32(cases[i][0]);
     crown.vertical = u32(cases[i][1]);
     crown.sphere = u32(cases[i][2]);
@@ -142,7 +134,7 @@ fn shaders_blend_slicings_as_rust_does() {
     let blend = undefined(include_str!("../../../src/slicing/shaders/blend.wgsl"));
     let parts = undefined(include_str!("../../../src/slicing/shaders/parts.wgsl"));
     let seen = undefined(include_str!("../../../src/slicing/shaders/seen.wgsl"));
-    let results: Vec<[f32; 28]> = run(&[&blend, &parts, &seen, ENTRY], &floats);
+    let results: Vec<[f32; 28]> = run(&[&blend, &parts, &seen, WORK], &floats);
     // Where two slicings are equally near, or one is about to count, rounding decides.
     let (mut decided, total) = (0, cases.len());
     for ((shape, eye, ray, distance), found) in cases.iter().zip(results) {

@@ -8,16 +8,8 @@ use bevy_verdure::texel::facet::{Facet, TexelFrame, slice_line, slice_position, 
 use crate::compute::run;
 
 /// What runs the shader on cases.
-const ENTRY: &str = r"
-@group(0) @binding(0) var<storage, read> cases: array<array<f32, 44>>;
-@group(0) @binding(1) var<storage, read_write> results: array<array<f32, 36>>;
-
-@compute @workgroup_size(64)
-fn run(@builtin(global_invocation_id) id: vec3<u32>) {
-    let i = id.x;
-    if i >= arrayLength(&cases) {
-        return;
-    }
+const WORK: &str = r"
+fn work(i: u32) {
     let facet = Facet(
         mat3x3(vector(i, 0u), vector(i, 3u), vector(i, 6u)),
         mat3x3(vector(i, 9u), vector(i, 12u), vector(i, 15u)),
@@ -115,7 +107,7 @@ fn shaders_place_slices_as_rust_does() {
     let cases: Vec<Case> = (0..20_000).map(|_| Case::roll(&mut dice)).collect();
     let floats: Vec<[f32; 44]> = cases.iter().map(Case::floats).collect();
     let shader = include_str!("../../../src/texel/draw/shaders/facet.wgsl");
-    let results: Vec<[f32; 36]> = run(&[shader, ENTRY], &floats);
+    let results: Vec<[f32; 36]> = run(&[shader, WORK], &floats);
     for (case, found) in cases.iter().zip(results) {
         let vector = |at: usize| Vec3::from_slice(&found[at..at + 3]);
         let facet = &case.facet;

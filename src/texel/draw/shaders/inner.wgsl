@@ -29,7 +29,7 @@ fn look_inside(in: Varying, own: vec4<f32>) -> Inner {
     let count = 1u << firstLeadingBit(in.layer + 1u);
     let slice = in.layer + 1u - count;
     let most = (textureNumLayers(normal_texture) + 1u) / 2u;
-    let finest = min(most, count << firstLeadingBit(texels.inner_slices));
+    let finest = min(most, count * texels.inner_slices);
     let middle = (f32(slice) + 0.5) / f32(count);
     // Columns, rows, and across slices.
     var way = in.view_in_volume;

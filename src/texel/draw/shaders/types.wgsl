@@ -16,7 +16,7 @@ struct Texels {
     // xyz: velocity of the wind; w: how far it moves the top, in heights, for each metre a second.
     wind: vec4<f32>,
     reflectance: f32,
-    // How many slices are looked up in the layer of one.
+    // How many slices are looked up in the layer of one: a power of two.
     inner_slices: u32,
 }
 
