@@ -11,7 +11,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 
 fn broadleaf() -> CrownMesh {
     let tree = Broadleaf::default().grow(1);
-    broadleaf_crown(&tree).expect("a broadleaf's meshes can be baked")
+    broadleaf_crown(&tree, 0.0).expect("a broadleaf's meshes can be baked")
 }
 
 /// The paper's tree, 19,657 triangles, with the default settings: 7 orientations, 3 levels, 256² pixels, 16 samples each.

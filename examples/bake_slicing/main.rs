@@ -48,6 +48,9 @@ struct Args {
     /// Samples along each side of a pixel.
     #[arg(long, default_value_t = 4)]
     samples: u32,
+    /// Share of the light that comes through leaves from behind, 0 to 1: 0.5 looks alike from both sides.
+    #[arg(long, default_value_t = 0.0, value_parser = parse_share)]
+    transmission: f32,
     /// What a broadleaf grows from.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -138,7 +141,7 @@ fn run(args: &Args) -> Result<(), String> {
 fn crown(args: &Args) -> Result<(CrownMesh, usize), String> {
     let Some(path) = &args.model else {
         let tree = Broadleaf::default().grow(args.seed);
-        let crown = broadleaf_crown(&tree).map_err(|error| error.to_string())?;
+        let crown = broadleaf_crown(&tree, args.transmission).map_err(|error| error.to_string())?;
         return Ok((crown, Broadleaf::default().solid_triangles as usize));
     };
     let parts = load_model(path)?;

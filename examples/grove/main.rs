@@ -48,6 +48,9 @@ struct Args {
     /// What lights crowns of slices.
     #[arg(long, value_enum, default_value_t = Light::Simple)]
     light: Light,
+    /// The share of light that comes through leaves from behind, 0 to 1. A slicing that is given has its own.
+    #[arg(long, default_value_t = 0.4)]
+    transmission: f32,
     /// The paper's order of slices.
     #[arg(long)]
     paper: bool,
@@ -103,7 +106,12 @@ fn run(args: &Args) -> Result<(), String> {
         frames: args.edges,
         ..default()
     };
-    let grove = Grove::grow(args.seed, args.pixels, args.slicing.as_deref())?;
+    let grove = Grove::grow(
+        args.seed,
+        args.pixels,
+        args.transmission,
+        args.slicing.as_deref(),
+    )?;
     let walk = Walk::new(args.trees, args.from, args.stride, args.eye.is_some());
     let (eye, at) = args.eye.map_or_else(|| walk.view(), |eye| (eye, args.at));
     let close_up = !args.slices_alone;

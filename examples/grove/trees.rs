@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use bevy::ecs::system::SystemParam;
+use bevy::light::TransmittedShadowReceiver;
 use bevy::prelude::*;
 use bevy_verdure::lab::broadleaf_crown;
 use bevy_verdure::plants::{Broadleaf, BroadleafMeshes, Dice};
@@ -32,6 +33,8 @@ pub struct MeshCrown;
 pub struct Grove {
     meshes: BroadleafMeshes,
     slicing: Slicing,
+    /// The share of light that comes through leaves from behind.
+    transmission: f32,
 }
 
 #[derive(SystemParam)]
@@ -48,17 +51,27 @@ pub fn radius(trees: u32) -> f32 {
 }
 
 impl Grove {
-    pub fn grow(seed: u64, pixels: u32, slicing: Option<&Path>) -> Result<Self, String> {
+    pub fn grow(
+        seed: u64,
+        pixels: u32,
+        transmission: f32,
+        slicing: Option<&Path>,
+    ) -> Result<Self, String> {
         let meshes = Broadleaf::default().grow(seed);
         let slicing = match slicing {
             Some(path) => Slicing::read(path).map_err(|error| error.to_string())?,
             None => {
-                let crown = broadleaf_crown(&meshes).map_err(|error| error.to_string())?;
+                let crown = broadleaf_crown(&meshes, transmission);
+                let crown = crown.map_err(|error| error.to_string())?;
                 let settings = BakeSettings::default().with_pixels(pixels);
                 bake(&crown, &settings).map_err(|error| error.to_string())?
             }
         };
-        Ok(Self { meshes, slicing })
+        Ok(Self {
+            meshes,
+            slicing,
+            transmission,
+        })
     }
 
     /// Plants trees of different scale and turn on a spiral.
@@ -87,6 +100,7 @@ impl Grove {
         let green = assets.materials.add(StandardMaterial {
             perceptual_roughness: 0.75,
             reflectance: 0.3,
+            diffuse_transmission: self.transmission,
             double_sided: true,
             cull_mode: None,
             ..default()
@@ -139,6 +153,7 @@ impl Grove {
                             MeshCrown,
                             Mesh3d(mesh.clone()),
                             MeshMaterial3d(material.clone()),
+                            TransmittedShadowReceiver,
                             shown(drawn == Drawn::Mesh),
                         ));
                     }

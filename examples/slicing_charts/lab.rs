@@ -54,7 +54,7 @@ impl Lab {
                 });
         });
         let tree = Broadleaf::default().grow(1);
-        let crown = broadleaf_crown(&tree).expect("a broadleaf's meshes can be baked");
+        let crown = broadleaf_crown(&tree, 0.0).expect("a broadleaf's meshes can be baked");
         let world = studio.world();
         world.spawn((
             DirectionalLight {

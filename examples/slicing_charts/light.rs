@@ -138,6 +138,74 @@ pub fn light_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
     Ok(elevation_chart(lab, title, lines))
 }
 
+/// The light of a crown, over the mesh's, for eyes as high as the sun, by how far they are turned from it, low and high.
+pub fn light_by_azimuth(lab: &mut Lab) -> Result<Chart, String> {
+    const TURNS: [f32; 7] = [0.0, 20.0, 40.0, 60.0, 90.0, 135.0, 180.0];
+    let slicing = lab.bake(&BakeSettings::default())?;
+    let camera = lab.studio.camera();
+    lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
+    let mut lines = Vec::new();
+    for elevation in [10.0, 47.0] {
+        for distance in [15.0, 40.0] {
+            // The sun goes round, so that no direction of the tree counts for more.
+            let mut light = |drawn: &Drawn| {
+                let crown = planted(lab, drawn, &[Transform::IDENTITY]);
+                let all = TURNS.map(|turn| {
+                    let suns = [10.0, 85.0, 160.0, 250.0];
+                    let mut sum = 0.0;
+                    let mut cover = 0.0;
+                    for sun in suns {
+                        let at = |azimuth: f32| shot(lab, distance, azimuth, elevation);
+                        let to_sun = at(sun).eye - at(sun).at;
+                        let shots = [at(sun + turn)];
+                        let world = lab.studio.world();
+                        let mut query =
+                            world.query_filtered::<&mut Transform, With<DirectionalLight>>();
+                        for mut sun in query.iter_mut(world) {
+                            sun.look_to(-to_sun, Vec3::Y);
+                        }
+                        for _ in 0..2 {
+                            lab.studio.headless.step();
+                        }
+                        let black = brightness(lab, &shots, Color::BLACK);
+                        cover += 1.0 - (brightness(lab, &shots, Color::WHITE) - black);
+                        sum += black;
+                    }
+                    sum / cover
+                });
+                uproot(lab, &crown);
+                all
+            };
+            let mesh = light(&Drawn::Mesh);
+            let sliced = light(&Drawn::Slicing(slicing.clone(), default()));
+            println!("{elevation} {distance}: mesh {mesh:.3?}");
+            let ratios = TURNS
+                .iter()
+                .enumerate()
+                .map(|(i, turn)| (f64::from(*turn), sliced[i] / mesh[i]));
+            lines.push((
+                format!("sun {elevation}\u{b0} high, {distance} m"),
+                ratios.collect::<Vec<_>>(),
+            ));
+        }
+    }
+    lab.studio.world().entity_mut(camera).insert(Msaa::Off);
+    let series = lines.into_iter().map(|(name, points)| {
+        println!(
+            "{name}: {:.3?}",
+            points.iter().map(|p| p.1).collect::<Vec<_>>()
+        );
+        Series::line(name, points)
+    });
+    Ok(Chart {
+        title: "Light of a crown of slices, over the mesh's, by azimuth from the sun's".into(),
+        series: series.collect(),
+        subtitle: lab.adapter.clone(),
+        x: Axis::linear("degrees between eye and sun"),
+        y: Axis::linear("ratio to the mesh"),
+    })
+}
+
 pub fn against_distance(lab: &mut Lab) -> Result<Chart, String> {
     let slicing = lab.bake(&BakeSettings::default())?;
     let distances: &[f32] = if lab.quick {

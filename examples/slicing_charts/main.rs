@@ -51,7 +51,7 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 20] = [
+const EXPERIMENTS: [Experiment; 21] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
     ("slicing_switches", switches::error_against_cost),
@@ -69,6 +69,7 @@ const EXPERIMENTS: [Experiment; 20] = [
     ("slicing_light", light::against_distance),
     ("slicing_cover", light::cover_by_elevation),
     ("slicing_light_above", light::light_by_elevation),
+    ("slicing_light_around", light::light_by_azimuth),
     ("slicing_inside", near::inside),
     ("slicing_perspective", near::perspective),
     ("slicing_intersecting", intersecting::against_overlap),

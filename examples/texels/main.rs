@@ -38,9 +38,9 @@ struct Args {
     /// p: pixels between slices that are close enough for any depth.
     #[arg(long, default_value_t = TexelQuality::default().pixels)]
     pixels: f32,
-    /// The least angle, in radians, that slices are chosen for.
-    #[arg(long, default_value_t = TexelQuality::default().least_angle)]
-    least_angle: f32,
+    /// The least angle, in radians, that slices are chosen for, instead of the scene's.
+    #[arg(long)]
+    least_angle: Option<f32>,
     /// The most slices a texel.
     #[arg(long, default_value_t = TexelSettings::default().most_slices)]
     most: u32,
@@ -53,6 +53,9 @@ struct Args {
     /// What lights the texels.
     #[arg(long, value_enum, default_value_t = Light::Simple)]
     light: Light,
+    /// The share of light that comes through from behind, 0 to 1, instead of the scene's.
+    #[arg(long)]
+    transmission: Option<f32>,
     /// Draw a depth prepass first, so that no pixel is lit twice.
     #[arg(long)]
     prepass: bool,
@@ -73,17 +76,18 @@ fn main() -> std::process::ExitCode {
 
 fn run(args: &Args) -> Result<(), String> {
     let scene = args.scene;
+    let own = scene.settings();
     let settings = TexelSettings {
         quality: TexelQuality {
             depth: args.depth,
             pixels: args.pixels,
-            least_angle: args.least_angle,
-            ..default()
+            least_angle: args.least_angle.unwrap_or(own.quality.least_angle),
+            ..own.quality
         },
         most_slices: args.most,
-        flexibility: scene.flexibility(),
         lighting: args.light.into(),
-        ..default()
+        diffuse_transmission: args.transmission.unwrap_or(own.diffuse_transmission),
+        ..own
     };
     let volume = scene.volume()?;
     let (eye, at) = scene.view();

@@ -31,7 +31,7 @@ pub type PlantMaterial = ExtendedMaterial<StandardMaterial, LitAsPlant>;
 ///
 /// * [`PlantLighting::Full`]: as the `StandardMaterial` alone would be.
 /// * [`PlantLighting::Simple`], the default: of the material count the base colour with its texture, vertex colours, the alpha
-///   mode and `double_sided`; normal maps, gloss and emission do not. Lit in full where the scene has lights that it leaves out,
+///   mode, `double_sided` and `diffuse_transmission`; normal maps, gloss and emission do not. Lit in full where the scene has lights that it leaves out,
 ///   as [`PlantLighting`] has it.
 /// * [`PlantLighting::Unlit`]: the same, without light.
 ///

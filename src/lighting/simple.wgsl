@@ -21,6 +21,10 @@ struct Leaf {
     spread: f32,
     // Share of the light from around.
     occlusion: f32,
+    // Share of the sun's light that comes through from behind.
+    transmission: f32,
+    // How far above it shadows are received, on the side that the light falls on.
+    stand_off: f32,
     // Where on the screen.
     pixel: vec2<f32>,
     // Tells it from others behind the same pixel.
@@ -50,7 +54,7 @@ fn in_map(light: u32, cascade: u32, position: vec3<f32>) -> vec3<f32> {
 
 // The share of a directional light that comes to a place, by the shadow map's own filter of two by two pixels. Where
 // cascades overlap, each pixel picks one by chance: looking into one costs half as much as mixing two.
-fn sunlight(light: u32, leaf: Leaf, depth: f32) -> f32 {
+fn sunlight(light: u32, leaf: Leaf, cosine: f32, depth: f32) -> f32 {
     let l = &lights.directional_lights[light];
     let last = max((*l).num_cascades, 1u) - 1u;
     let sooner = 1.0 - (*l).cascades_overlap_proportion * (1.0 - noise(leaf));
@@ -58,7 +62,9 @@ fn sunlight(light: u32, leaf: Leaf, depth: f32) -> f32 {
     var cascade = select(0u, 1u, last > 0u && depth >= (*l).cascades[0].far_bound * sooner);
     cascade += select(0u, 1u, last > 1u && depth >= (*l).cascades[1].far_bound * sooner);
     cascade += select(0u, 1u, last > 2u && depth >= (*l).cascades[2].far_bound * sooner);
-    let offset = (*l).shadow_normal_bias * (*l).cascades[cascade].texel_size * leaf.normal
+    let above = (*l).shadow_normal_bias * (*l).cascades[cascade].texel_size + leaf.stand_off;
+    // Light that comes through falls on the other side.
+    let offset = select(above, -above, leaf.transmission > 0.0 && cosine < 0.0) * leaf.normal
         + (*l).shadow_depth_bias * (*l).direction_to_light;
     let place = in_map(light, cascade, leaf.position + offset);
     let share = sample_shadow_map_hardware(place.xy, place.z, i32((*l).depth_texture_base_index + cascade));
@@ -70,10 +76,10 @@ fn sunlight(light: u32, leaf: Leaf, depth: f32) -> f32 {
 fn add_light(light: u32, leaf: Leaf, color: vec3<f32>, depth: f32) -> vec3<f32> {
     let l = &lights.directional_lights[light];
     let cosine = dot(leaf.normal, (*l).direction_to_light) * sqrt(1.0 - leaf.spread);
-    var share = mean_cosine(cosine, leaf.spread) / PI;
+    var share = mean_cosine(cosine, leaf.spread, leaf.transmission) / PI;
     if ((*l).flags & DIRECTIONAL_LIGHT_FLAGS_SHADOWS_ENABLED_BIT) != 0u
         && (leaf.flags & MESH_FLAGS_SHADOW_RECEIVER_BIT) != 0u {
-        share *= sunlight(light, leaf, depth);
+        share *= sunlight(light, leaf, cosine, depth);
     }
     return share * (color + GLOSS) * (*l).color.rgb;
 }

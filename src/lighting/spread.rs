@@ -1,13 +1,14 @@
 //! Light on many normals at once: what `spread.wgsl` runs on the GPU, by the same names.
 
-/// The mean of max(n·l, 0) over unit normals n, for a light from l: as [`PlantLighting::Simple`](super::PlantLighting::Simple) lights
-/// a pixel in which normals differ.
+/// The mean of (1 - `transmission`) max(n·l, 0) + `transmission` max(-n·l, 0) over unit normals n, for a light from l: as
+/// [`PlantLighting::Simple`](super::PlantLighting::Simple) lights a pixel in which normals differ.
 ///
 /// `cosine`, from -1 to 1, is n·l of the normals' mean, which is the shorter the more they differ, and `spread` is one less the
 /// square of that mean's length: 0 of a single normal, 1 where they point everywhere. The mean of |n·l| is taken for
-/// √(cosine² + spread/4), which is right for a single normal and for normals in all directions.
-pub fn mean_cosine(cosine: f32, spread: f32) -> f32 {
-    0.5 * (cosine + (cosine * cosine + 0.25 * spread).sqrt())
+/// √(cosine² + spread/4), which is right for a single normal and for normals in all directions. `transmission`, from 0 to 1, is
+/// the share of the light that comes through from behind: 0 of what is solid, 0.5 of a leaf that looks alike from both sides.
+pub fn mean_cosine(cosine: f32, spread: f32, transmission: f32) -> f32 {
+    0.5 * ((1.0 - 2.0 * transmission) * cosine + (cosine * cosine + 0.25 * spread).sqrt())
 }
 
 #[cfg(test)]
@@ -20,7 +21,22 @@ mod tests {
     fn one_normal_is_lit_by_its_cosine() {
         for i in -10..=10 {
             let cosine = i as f32 / 10.0;
-            assert!((mean_cosine(cosine, 0.0) - cosine.max(0.0)).abs() < 1e-6);
+            assert!((mean_cosine(cosine, 0.0, 0.0) - cosine.max(0.0)).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn light_comes_through_from_behind() {
+        for i in -10..=10 {
+            let cosine = i as f32 / 10.0;
+            for spread in [0.0, 0.5, 1.0] {
+                let front = mean_cosine(cosine, spread, 0.0);
+                let behind = mean_cosine(-cosine, spread, 0.0);
+                for transmission in [0.25, 0.5, 1.0] {
+                    let both = (1.0 - transmission) * front + transmission * behind;
+                    assert!((mean_cosine(cosine, spread, transmission) - both).abs() < 1e-6);
+                }
+            }
         }
     }
 
@@ -43,7 +59,7 @@ mod tests {
                     plain += to_light;
                 }
                 let exact = sum / (STEPS * STEPS) as f32;
-                let found = mean_cosine(mean * cos, 1.0 - mean * mean);
+                let found = mean_cosine(mean * cos, 1.0 - mean * mean, 0.0);
                 // The mean of |n·l| is at most that far from the root for a half sphere, seen from its top: (√0.4375 − 0.5)/2.
                 assert!(
                     (found - exact).abs() < 0.085,

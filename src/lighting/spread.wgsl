@@ -2,6 +2,6 @@
 
 // Light on many normals at once: what spread.rs is, by the same names.
 
-fn mean_cosine(cosine: f32, spread: f32) -> f32 {
-    return 0.5 * (cosine + sqrt(cosine * cosine + 0.25 * spread));
+fn mean_cosine(cosine: f32, spread: f32, transmission: f32) -> f32 {
+    return 0.5 * ((1.0 - 2.0 * transmission) * cosine + sqrt(cosine * cosine + 0.25 * spread));
 }

@@ -2,6 +2,7 @@
 
 use bevy::asset::{AsAssetId, AssetId};
 use bevy::camera::visibility::NoAutoAabb;
+use bevy::light::TransmittedShadowReceiver;
 use bevy::mesh::MeshTag;
 use bevy::prelude::*;
 
@@ -25,7 +26,16 @@ use crate::lighting::PlantLighting;
 /// ```
 #[derive(Component, Clone, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
-#[require(CrownSettings, CrownTint, MeshTag, NoAutoAabb, Transform, Visibility)]
+#[require(
+    CrownSettings,
+    CrownTint,
+    MeshTag,
+    NoAutoAabb,
+    Transform,
+    // Of light that comes through leaves.
+    TransmittedShadowReceiver,
+    Visibility
+)]
 pub struct SlicedCrown(pub Handle<Slicing>);
 
 impl AsAssetId for SlicedCrown {

@@ -50,7 +50,7 @@ pub enum SlicingError {
     SwitchOrder,
     /// A number is out of range.
     #[error(
-        "{what} is {value}: make it a finite number, the radius greater than 0, the correction 0 to 4"
+        "{what} is {value}: make it a finite number, the radius greater than 0, the correction 0 to 4, the diffuse transmission 0 to 1"
     )]
     Number {
         /// Which number.

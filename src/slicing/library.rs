@@ -2,7 +2,9 @@
 
 use bevy::asset::prelude::AssetChanged;
 use bevy::asset::{AssetEvent, AssetId};
+use bevy::camera::Hdr;
 use bevy::camera::primitives::Aabb;
+use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::image::Image;
 use bevy::mesh::MeshTag;
 use bevy::platform::collections::{HashMap, HashSet};
@@ -160,6 +162,7 @@ impl Shared {
                 settings,
                 // Until `follow_lights` says otherwise, in this very frame.
                 lighting: settings.lighting.into(),
+                tone_mapped: false,
                 compressed: self.compressed,
                 parts,
             })
@@ -248,20 +251,24 @@ pub(crate) fn follow_wind(
     }
 }
 
-/// Tells the materials which lighting the scene's lights call for.
+/// Tells the materials which lighting the scene's lights call for, and whether its HDR cameras map tones: a camera that does speaks
+/// for all.
 pub(crate) fn follow_lights(
     library: Res<CrownLibrary>,
     mut materials: ResMut<Assets<SlicedCrownMaterial>>,
     lights: SceneLights,
+    cameras: Query<&Tonemapping, With<Hdr>>,
 ) {
+    let tone_mapped = cameras.iter().any(|mapping| *mapping != Tonemapping::None);
     let all = library.shared.values();
     for (settings, material) in all.flat_map(Shared::each_material) {
         let lighting = lights.lighting(settings.lighting);
         // Only what is written to counts as changed.
         if let Some(mut material) = materials.get_mut(material)
-            && material.lighting != lighting
+            && (material.lighting, material.tone_mapped) != (lighting, tone_mapped)
         {
             material.lighting = lighting;
+            material.tone_mapped = tone_mapped;
         }
     }
 }

@@ -10,7 +10,7 @@ use bevy::mesh::MeshVertexBufferLayoutRef;
 use bevy::pbr::{Material, MaterialPipeline, MaterialPipelineKey, MeshPipelineKey};
 use bevy::prelude::*;
 use bevy::render::render_resource::{
-    AsBindGroup, RenderPipelineDescriptor, ShaderType, SpecializedMeshPipelineError,
+    AsBindGroup, RenderPipelineDescriptor, ShaderType, SpecializedMeshPipelineError, TextureFormat,
 };
 use bevy::render::storage::ShaderBuffer;
 use bevy::shader::ShaderRef;
@@ -52,6 +52,7 @@ pub(crate) struct CrownUniform {
     flexibility: f32,
     pixels: u32,
     widest: f32,
+    diffuse_transmission: f32,
     /// Velocity of the wind.
     pub(crate) wind: Vec4,
     orientations: [OrientationUniform; MAX_ORIENTATIONS],
@@ -84,6 +85,7 @@ impl CrownUniform {
             flexibility: FLEXIBILITY * shape.radius,
             pixels: shape.pixels,
             widest: widest(shape),
+            diffuse_transmission: shape.diffuse_transmission,
             wind: wind.extend(0.0),
             orientations,
         }
@@ -106,6 +108,8 @@ pub struct SlicedCrownMaterial {
     pub(crate) settings: CrownSettings,
     /// What lights the crowns in this scene.
     pub(crate) lighting: SceneLighting,
+    /// Whether cameras map tones.
+    pub(crate) tone_mapped: bool,
     /// Whether the textures are compressed, so that normals are folded to an octahedron's square.
     pub(crate) compressed: bool,
     /// Whether the discrepancy angle is taken part by part, up close.
@@ -121,6 +125,9 @@ pub struct CrownKey {
     frames: bool,
     parts: bool,
     compressed: bool,
+    tone_mapped: bool,
+    /// Whether light comes through leaves from behind.
+    transmits: bool,
 }
 
 impl From<&SlicedCrownMaterial> for CrownKey {
@@ -133,6 +140,8 @@ impl From<&SlicedCrownMaterial> for CrownKey {
             frames: settings.frames,
             parts: material.parts,
             compressed: material.compressed,
+            tone_mapped: material.tone_mapped,
+            transmits: material.crown.diffuse_transmission > 0.0,
         }
     }
 }
@@ -181,6 +190,14 @@ impl Material for SlicedCrownMaterial {
         let crown = key.bind_group_data;
         let lighting = crown.lighting.lighting;
         let light = MeshPipelineKey::UNCLIPPED_DEPTH_ORTHO;
+        // In HDR, blended colours are mapped to the screen after they are blended.
+        let is_tone_mapped_later = crown.tone_mapped
+            && crown.composition == Composition::Blended
+            && crown.order == SliceOrder::Steady
+            && matches!(
+                key.mesh_key.target_format(),
+                TextureFormat::Rgba16Float | TextureFormat::Rg11b10Ufloat
+            );
         let defs = names([
             (crown.composition == Composition::Hashed, "CROWN_HASHED"),
             (crown.order == SliceOrder::Paper, "CROWN_PAPER_ORDER"),
@@ -191,6 +208,9 @@ impl Material for SlicedCrownMaterial {
             (crown.parts, "CROWN_PARTS"),
             (crown.compressed, "CROWN_COMPRESSED"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
+            // Bevy's full light asks for it.
+            (is_tone_mapped_later, "CROWN_TONE_MAPPED_LATER"),
+            (crown.transmits, "STANDARD_MATERIAL_DIFFUSE_TRANSMISSION"),
         ]);
         define(descriptor, defs);
         Ok(())

@@ -48,6 +48,8 @@ pub struct SlicingShape {
     pub switches: Vec<f32>,
     /// m_s: how much more opaque blended slicings are drawn in the paper's order (§2.3).
     pub correction: f32,
+    /// Share of the sun's light that comes through leaves from behind, 0 to 1: the mean of what is baked.
+    pub diffuse_transmission: f32,
     /// Whether orientations are spread over the sphere, so that the three nearest blend; else the two nearest do.
     pub sphere: bool,
     /// Whether the last orientation looks down, and joins in as the eye rises.
@@ -140,6 +142,11 @@ impl SlicingShape {
             "correction",
             self.correction,
             (0.0..=4.0).contains(&self.correction),
+        )?;
+        number(
+            "diffuse transmission",
+            self.diffuse_transmission,
+            (0.0..=1.0).contains(&self.diffuse_transmission),
         )?;
         number("centroid", self.centroid.length_squared(), true)?;
         for (index, o) in self.orientations.iter().enumerate() {

@@ -159,6 +159,7 @@ impl<'a> Model<'a> {
                 AlphaMode::Mask => material.alpha_cutoff().unwrap_or(0.5),
                 _ => 0.0,
             },
+            ..CrownMaterial::default()
         })
     }
 }

@@ -19,7 +19,7 @@ use bevy::prelude::*;
 use clap::ValueEnum;
 
 use crate::texel::build::Spreading;
-use crate::texel::{TexelVolume, silent};
+use crate::texel::{TexelSettings, TexelVolume, silent};
 
 pub use counts::{SliceCounts, texel_bytes, texel_view};
 pub use full::{full_mesh, instances};
@@ -103,12 +103,21 @@ impl TexelScene {
         }
     }
 
-    /// How far its texels bend in the wind.
-    pub const fn flexibility(self) -> f32 {
+    /// How it is drawn.
+    pub fn settings(self) -> TexelSettings {
+        let mut settings = TexelSettings::default();
         match self {
-            Self::Meadow | Self::Fur => 0.03,
-            _ => 0.0,
+            // They overlap, and meet in steps as high as slices are apart.
+            Self::Pear => settings.quality.least_angle = 1.1,
+            Self::Bushes => settings.diffuse_transmission = 0.5,
+            Self::Fur => settings.flexibility = 0.03,
+            Self::Meadow => {
+                settings.flexibility = 0.03;
+                settings.diffuse_transmission = 0.5;
+            }
+            _ => {}
         }
+        settings
     }
 
     /// What is covered.

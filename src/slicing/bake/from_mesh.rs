@@ -13,9 +13,8 @@ use super::source::{CrownMaterial, CrownMesh, CrownVertex};
 use super::texture::CrownTexture;
 
 impl CrownMaterial {
-    /// What a crown takes of a standard material: base colour, its texture and where that lies, and
-    /// its alpha mask. `mesh` names it in
-    /// errors.
+    /// What a crown takes of a standard material: base colour, its texture and where that lies, its alpha mask, and its diffuse
+    /// transmission. `mesh` names it in errors.
     ///
     /// # Errors
     /// When the texture is not among `images`, or cannot be read.
@@ -48,6 +47,7 @@ impl CrownMaterial {
             texture: texture.map(|texture| if opaque { texture.opaque() } else { texture }),
             uv_transform: material.uv_transform,
             cutoff,
+            diffuse_transmission: material.diffuse_transmission,
         })
     }
 }

@@ -179,6 +179,7 @@ fn shape(mesh: &CrownMesh, settings: &BakeSettings, directions: Vec<Vec3>) -> Sl
         levels: settings.levels.clone(),
         switches: settings.switches.clone(),
         correction: settings.correction,
+        diffuse_transmission: mesh.diffuse_transmission(),
         sphere: matches!(settings.orientations, Orientations::Sphere(_)),
         vertical: settings.has_vertical(),
         orientations: orientations.collect(),

@@ -19,6 +19,9 @@ pub struct CrownMaterial {
     pub uv_transform: Affine2,
     /// Where alpha is less than this there is a hole (an alpha mask); 0 for none.
     pub cutoff: f32,
+    /// Share of the light that comes through from behind, 0 to 1, as of Bevy's `StandardMaterial`: 0 is solid, 0.5 looks alike
+    /// from both sides. What is below or above is taken for the nearest, and no number for 0.
+    pub diffuse_transmission: f32,
 }
 
 impl Default for CrownMaterial {
@@ -28,6 +31,7 @@ impl Default for CrownMaterial {
             texture: None,
             uv_transform: Affine2::IDENTITY,
             cutoff: 0.0,
+            diffuse_transmission: 0.0,
         }
     }
 }
@@ -124,6 +128,19 @@ impl CrownMesh {
             });
             self.push(vertices, first + triangle.material);
         }
+    }
+
+    /// Share of the light that comes through all triangles from behind, each by its area.
+    pub(super) fn diffuse_transmission(&self) -> f32 {
+        let (mut through, mut all) = (0.0, 0.0);
+        for triangle in &self.triangles {
+            let area = f64::from(triangle.area());
+            let share = self.materials[triangle.material as usize].diffuse_transmission;
+            // What is no number is none.
+            through += area * f64::from(share.clamp(0.0, 1.0).max(0.0));
+            all += area;
+        }
+        (through / all) as f32
     }
 
     /// Refuses what cannot be baked; of degenerate triangles, which have no area, the rest is none the worse.

@@ -15,6 +15,7 @@ fn shape(orientations: Orientations, vertical: bool) -> SlicingShape {
         levels: vec![5, 3, 1],
         switches: vec![10.0, 25.0],
         correction: 0.5,
+        diffuse_transmission: 0.0,
         sphere: matches!(orientations, Orientations::Sphere(_)),
         vertical,
         orientations: directions.into_iter().map(Orientation::facing).collect(),

@@ -37,6 +37,8 @@ pub struct SlicingDocument {
     #[serde(default = "paper_correction")]
     correction: f32,
     #[serde(default)]
+    diffuse_transmission: f32,
+    #[serde(default)]
     sphere: bool,
     #[serde(default)]
     vertical: bool,
@@ -115,6 +117,7 @@ impl SlicingDocument {
             levels: shape.levels.clone(),
             switches: shape.switches.clone(),
             correction: shape.correction,
+            diffuse_transmission: shape.diffuse_transmission,
             sphere: shape.sphere,
             vertical: shape.vertical,
             orientations: orientations.collect(),
@@ -184,6 +187,7 @@ impl SlicingDocument {
             levels: self.levels.clone(),
             switches: self.switches.clone(),
             correction: self.correction,
+            diffuse_transmission: self.diffuse_transmission,
             sphere: self.sphere,
             vertical: self.vertical,
             orientations: orientations.collect(),

@@ -34,6 +34,11 @@ fn files_that_ask_for_nonsense_are_refused_by_name() {
             "        1000000,\n",
             "the number of slices is 1000000",
         ),
+        (
+            "transmission: 0.0",
+            "transmission: 1.5",
+            "diffuse transmission is 1.5",
+        ),
         ("radius:", "radius: NaN, //", "radius is NaN"),
         (
             "switches: [\n        10.0,",

@@ -27,6 +27,7 @@ struct Crown {
     pixels: u32,
     // The greatest angle by which a part's direction may differ from the crown's, in radians.
     widest: f32,
+    diffuse_transmission: f32,
     // xyz: velocity.
     wind: vec4<f32>,
     orientations: array<Orientation, 32>,

@@ -130,6 +130,9 @@ pub struct TexelSettings {
     pub roughness: f32,
     /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it.
     pub reflectance: f32,
+    /// Share of the light that comes through from behind, 0 to 1, as of Bevy's `StandardMaterial`: 0 is solid, 0.5 is grass and
+    /// leaves, which look alike from both sides. What is below or above is taken for the nearest, and no number for 0.
+    pub diffuse_transmission: f32,
     /// How far the top moves in the [`Wind`](crate::wind::Wind), in heights, for each metre a second: 0 is stiff, 0.03 is
     /// grass. Height vectors bend, and keep their length.
     pub flexibility: f32,
@@ -150,6 +153,12 @@ impl TexelSettings {
     pub(crate) fn inner_slices(&self, count: u32, most: u32) -> u32 {
         let inner = self.inner_slices.clamp(1, MOST_INNER_SLICES);
         (most / count).clamp(1, 1 << inner.ilog2())
+    }
+
+    /// The share of light from behind, in its range.
+    pub(crate) fn diffuse_transmission(&self) -> f32 {
+        // What is no number is none.
+        self.diffuse_transmission.clamp(0.0, 1.0).max(0.0)
     }
 
     /// How far above a place that is seen light falls on it, or solids would shade themselves in specks. So far it may be from the
@@ -179,6 +188,7 @@ impl Default for TexelSettings {
             lighting: PlantLighting::Simple,
             roughness: 0.8,
             reflectance: 0.3,
+            diffuse_transmission: 0.0,
             flexibility: 0.0,
             empty_slices: false,
         }

@@ -46,7 +46,7 @@ pub(crate) struct TexelKeys {
     volume: VolumeKey,
     lighting: PlantLighting,
     /// Other settings that materials have.
-    settings: [u32; 4],
+    settings: [u32; 5],
 }
 
 impl TexelKeys {
@@ -72,6 +72,7 @@ impl TexelKeys {
                 settings.reflectance.to_bits(),
                 settings.flexibility.to_bits(),
                 settings.inner_slices,
+                settings.diffuse_transmission().to_bits(),
             ],
         }
     }

@@ -87,7 +87,10 @@ pub(crate) fn extract(
         let previous = texels.previous.get(&entity).copied();
         texels.places.insert(entity, world_from_local);
         let mut flags = MeshFlags::NONE;
-        flags.set(MeshFlags::SHADOW_RECEIVER, !receives_none);
+        flags.set(
+            MeshFlags::SHADOW_RECEIVER | MeshFlags::TRANSMITTED_SHADOW_RECEIVER,
+            !receives_none,
+        );
         texels.surfaces.push(SurfaceInFrame {
             source: source.clone(),
             world_from_local,

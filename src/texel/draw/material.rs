@@ -30,6 +30,7 @@ pub(crate) struct TexelsUniform {
     pub(crate) wind: Vec4,
     reflectance: f32,
     inner_slices: u32,
+    diffuse_transmission: f32,
 }
 
 impl TexelsUniform {
@@ -40,6 +41,7 @@ impl TexelsUniform {
             wind: wind.extend(settings.flexibility),
             reflectance: settings.reflectance,
             inner_slices: settings.inner_slices(1, u32::MAX),
+            diffuse_transmission: settings.diffuse_transmission(),
         }
     }
 }
@@ -72,6 +74,8 @@ pub struct TexelKey {
     axis: u8,
     lighting: SceneLighting,
     depth: bool,
+    /// Whether light comes through from behind.
+    transmits: bool,
 }
 
 impl From<&TexelMaterial> for TexelKey {
@@ -80,6 +84,7 @@ impl From<&TexelMaterial> for TexelKey {
             axis: material.axis as u8,
             lighting: material.lighting,
             depth: material.depth,
+            transmits: material.texels.diffuse_transmission > 0.0,
         }
     }
 }
@@ -174,6 +179,8 @@ impl Material for TexelMaterial {
             (is_main && !own.depth, "TEXEL_INNER"),
             (key.mesh_key.contains(sun), "TEXEL_DIRECTIONAL_LIGHT"),
             (four, "TEXEL_FOUR_SAMPLES"),
+            // Bevy's full light asks for it.
+            (own.transmits, "STANDARD_MATERIAL_DIFFUSE_TRANSMISSION"),
         ]);
         define(descriptor, defs.chain([axis]));
         Ok(())

@@ -1,17 +1,20 @@
 //! Where slicing fails: how much of what is behind shows through two blended slicings, against one alone (§2.3).
 
+use bevy::camera::Hdr;
+use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::prelude::*;
 use bevy_verdure::lab::Studio;
 use bevy_verdure::prelude::*;
 
 use super::{CROWN, SIZE, UNLIT, baked, eye, mean, plant, plant_mesh, shot, sun};
 
-/// The share of the light from behind that comes through the middle of a crown, from so many degrees off an orientation.
-fn through(studio: &mut Studio, angle: f32) -> f64 {
+/// How much lighter the middle of a crown is on screen before something `bright` than before black, from so many degrees off an
+/// orientation: before white, the share of light that comes through.
+fn through(studio: &mut Studio, angle: f32, bright: Color) -> f64 {
     let (low, high) = (3 * SIZE / 8, 5 * SIZE / 8);
     let all = [0.0, 120.0, 240.0].map(|azimuth| {
         let look = shot(eye(azimuth + angle, 0.0, 16.0));
-        let [black, white] = [Color::BLACK, Color::WHITE].map(|background| {
+        let [black, bright] = [Color::BLACK, bright].map(|background| {
             let picture = studio.photograph(&look, background);
             let pixels = (low.y..high.y).flat_map(|y| (low.x..high.x).map(move |x| (x, y)));
             let light = pixels.map(|(x, y)| {
@@ -20,7 +23,7 @@ fn through(studio: &mut Studio, angle: f32) -> f64 {
             });
             light.sum::<f64>()
         });
-        white - black
+        bright - black
     });
     let area = (high - low).element_product();
     all.iter().sum::<f64>() / (3 * area) as f64
@@ -43,7 +46,7 @@ fn as_much_shows_through_two_slicings_as_through_one_but_without_the_correction(
         let slicing = world.resource_mut::<Assets<Slicing>>().add(slicing);
         world.spawn((SlicedCrown(slicing), settings));
         studio.headless.step();
-        let (one, two) = (through(&mut studio, 0.0), through(&mut studio, 30.0));
+        let [one, two] = [0.0, 30.0].map(|angle| through(&mut studio, angle, Color::WHITE));
         println!("{name}: {one:.4} through one, {two:.4} through two");
         assert!(one > 0.02, "{name}: nothing shows through");
         two / one - 1.0
@@ -51,6 +54,38 @@ fn as_much_shows_through_two_slicings_as_through_one_but_without_the_correction(
     // f_c makes up for the average crown alone; m_s would have to be more for one as dense as this.
     assert!(2.0 * corrected.abs() < plain, "{corrected} {plain}");
     assert!(default.abs() < corrected.abs(), "{default} {corrected}");
+}
+
+#[test]
+fn as_much_shows_through_as_through_the_mesh_before_tone_mapping_and_after() {
+    let mut studio = Studio::default();
+    sun(&mut studio);
+    let camera = studio.camera();
+    studio.world().entity_mut(camera).insert(Msaa::Sample4);
+    // Over the mesh's, in line with an orientation and half-way to the next.
+    let ratio = |studio: &mut Studio, bright: Color| {
+        let both = |planted: Vec<Entity>, studio: &mut Studio| {
+            studio.headless.step();
+            let all = [0.0, 30.0].map(|angle| through(studio, angle, bright));
+            for entity in planted {
+                studio.world().despawn(entity);
+            }
+            all.iter().sum::<f64>()
+        };
+        let mesh = plant_mesh(studio, Transform::IDENTITY, false);
+        let of_mesh = both(mesh, studio);
+        let crown = plant(studio, default(), Transform::IDENTITY);
+        both(vec![crown], studio) / of_mesh
+    };
+    let at_once = ratio(&mut studio, Color::WHITE);
+    studio
+        .world()
+        .entity_mut(camera)
+        .insert((Hdr, Tonemapping::TonyMcMapface));
+    // A sky of three times white.
+    let later = ratio(&mut studio, Color::linear_rgb(3.0, 3.0, 3.0));
+    println!("{at_once:.3} of what the mesh lets through, {later:.3} tone mapped after blending");
+    assert!((later / at_once - 1.0).abs() < 0.1, "{at_once} {later}");
 }
 
 #[test]

@@ -1,14 +1,15 @@
 //! Crowns in full light, in simple light and in none.
 
 use bevy::asset::RenderAssetUsages;
+use bevy::light::TransmittedShadowReceiver;
 use bevy::prelude::*;
 use bevy::render::render_resource::{
     Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
 };
-use bevy_verdure::lab::{Pixels, Studio, mean_flip};
+use bevy_verdure::lab::{Pixels, Studio, broadleaf_crown, mean_flip};
 use bevy_verdure::prelude::*;
 
-use super::{SIZE, UNLIT, covered, eye, mean, shot, studio, sun};
+use super::{SIZE, TREE, UNLIT, covered, eye, mean, shot, studio, sun};
 
 /// The crown over which `sun` stands, seen from beside.
 fn picture(studio: &mut Studio, crown: Entity, lighting: PlantLighting) -> Pixels {
@@ -158,4 +159,90 @@ fn an_environment_map_calls_for_full_light_while_it_is_there() {
     studio.headless.step();
     let after = picture(&mut studio, crown, PlantLighting::Simple);
     assert_eq!(after.rgb_bytes(), before.rgb_bytes());
+}
+
+#[test]
+fn light_comes_through_the_leaves_of_crowns_as_of_their_meshes() {
+    const TRANSMISSION: f32 = 0.5;
+    let bake_with = |transmission| {
+        let crown = broadleaf_crown(&TREE, transmission).expect("its meshes can be baked");
+        let settings = BakeSettings {
+            samples: 2,
+            ..BakeSettings::default().with_pixels(64)
+        };
+        bake(&crown, &settings).expect("the settings are in range")
+    };
+    let mut studio = Studio::default();
+    // Low, so that an eye beside the crown sees its lit side or the other.
+    studio.world().spawn((
+        DirectionalLight {
+            illuminance: 5_000.0,
+            shadow_maps_enabled: true,
+            ..default()
+        },
+        Transform::default().looking_to(Vec3::new(-1.0, -0.4, 0.0), Vec3::Y),
+    ));
+    let light = |studio: &mut Studio, planted: Vec<Entity>| {
+        studio.headless.step();
+        // Azimuth 0 has the sun behind the eye.
+        let light = [[-20.0, 20.0], [160.0, 200.0]].map(|azimuths| {
+            let means = azimuths.map(|azimuth| {
+                let look = shot(eye(azimuth, 0.0, 16.0));
+                mean(&studio.photograph(&look, Color::BLACK), 1)
+            });
+            means.iter().sum::<f64>() / 2.0
+        });
+        for entity in planted {
+            studio.world().despawn(entity);
+        }
+        light
+    };
+    for lighting in [PlantLighting::Simple, PlantLighting::Full] {
+        let [solid, leafy] = [0.0, TRANSMISSION].map(|transmission| {
+            let settings = CrownSettings {
+                lighting,
+                ..default()
+            };
+            let slicing = bake_with(transmission);
+            let slicing = studio
+                .world()
+                .resource_mut::<Assets<Slicing>>()
+                .add(slicing);
+            let crown = studio.world().spawn((SlicedCrown(slicing), settings)).id();
+            let crown = light(&mut studio, vec![crown]);
+            let world = studio.world();
+            let parts = [(&TREE.twigs, 0.0), (&TREE.leaves, transmission)];
+            let parts = parts.map(|(mesh, diffuse_transmission)| {
+                let material = LitAsPlant::by(lighting).over(StandardMaterial {
+                    perceptual_roughness: 0.75,
+                    reflectance: 0.3,
+                    double_sided: true,
+                    cull_mode: None,
+                    diffuse_transmission,
+                    ..default()
+                });
+                let mesh = world.resource_mut::<Assets<Mesh>>().add(mesh.clone());
+                let material = world.resource_mut::<Assets<PlantMaterial>>().add(material);
+                let look = (Mesh3d(mesh), MeshMaterial3d(material));
+                world.spawn((look, TransmittedShadowReceiver)).id()
+            });
+            let mesh = light(&mut studio, parts.into());
+            println!("{lighting:?} {transmission}: crown {crown:.2?}, mesh {mesh:.2?}");
+            [crown, mesh]
+        });
+        for (solid, leafy) in solid.iter().zip(&leafy) {
+            // The lit side gives up some, the other side gains as much.
+            assert!(leafy[0] < solid[0] && leafy[1] > 1.1 * solid[1]);
+        }
+        // In shadow maps a crown is leaves at depths by chance, of which more light comes through than through these few, large ones:
+        // on the side turned from the sun by up to a quarter.
+        for side in 0..2 {
+            let gain = [0, 1].map(|of| leafy[of][side] / solid[of][side]);
+            println!(
+                "{lighting:?}, side {side}: crown times {:.2}, mesh {:.2}",
+                gain[0], gain[1]
+            );
+            assert!((0.75..1.33).contains(&(gain[0] / gain[1])), "{gain:?}");
+        }
+    }
 }

@@ -44,7 +44,7 @@ static CROWN: LazyLock<Slicing> = LazyLock::new(|| baked(0.5));
 
 /// Its crown with a correction m_s.
 fn baked(correction: f32) -> Slicing {
-    let crown = broadleaf_crown(&TREE).expect("a broadleaf's meshes can be baked");
+    let crown = broadleaf_crown(&TREE, 0.0).expect("a broadleaf's meshes can be baked");
     let settings = BakeSettings {
         samples: 2,
         correction,

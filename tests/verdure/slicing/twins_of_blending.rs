@@ -82,6 +82,7 @@ fn shape(orientations: &Orientations, vertical: bool) -> SlicingShape {
         levels: vec![5],
         switches: vec![],
         correction: 0.5,
+        diffuse_transmission: 0.0,
         sphere: matches!(orientations, Orientations::Sphere(_)),
         vertical,
         orientations: directions.into_iter().map(Orientation::facing).collect(),

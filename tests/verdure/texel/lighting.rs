@@ -3,6 +3,8 @@
 use bevy::prelude::*;
 use bevy_verdure::lab::{Pixels, Studio, mean_flip};
 use bevy_verdure::prelude::*;
+use bevy_verdure::texel::build::{Filling, Shape, ShapeSettings, from_shape};
+use bevy_verdure::texel::silent;
 
 use super::passes::{floor, mean};
 use super::{SIZE, cover_default, shot};
@@ -105,5 +107,85 @@ fn what_a_sun_sees_is_in_no_shadow_of_its_own() {
             seen > 500 && darkened * 100 <= seen,
             "{to_sun}: {darkened} of {seen}"
         );
+    }
+}
+
+/// A leaf that lies in the middle of the unit cube, its front up.
+fn leaf() -> TexelVolume {
+    let corners = [(0.1, 0.1), (0.9, 0.1), (0.9, 0.9), (0.1, 0.9)];
+    let shape = Shape {
+        positions: corners.map(|(x, y)| Vec3::new(x, y, 0.52)).into(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        colors: vec![Vec4::new(0.2, 0.5, 0.1, 1.0); 4],
+        ..default()
+    };
+    let settings = ShapeSettings {
+        bounds: Some([Vec3::ZERO, Vec3::ONE]),
+        filling: Filling::None,
+        ..ShapeSettings::new(UVec3::splat(32))
+    };
+    let built = from_shape(&shape, &settings, &silent).expect("the leaf is in its box");
+    built.volume.into()
+}
+
+#[test]
+fn light_comes_through_leaves_from_behind_and_they_do_not_shade_it() {
+    use bevy::light::NotShadowReceiver;
+    let mut studio = Studio::default();
+    let surface = cover_default(&mut studio, TexelSettings::default());
+    let world = studio.world();
+    let volume = world.resource_mut::<Assets<TexelVolume>>().add(leaf());
+    let thickness = 1.0;
+    world
+        .entity_mut(surface)
+        .insert(TexelSurface { volume, thickness });
+    let sun = DirectionalLight {
+        shadow_maps_enabled: true,
+        illuminance: 1_500.0,
+        ..default()
+    };
+    let sun = world.spawn((sun, Transform::default())).id();
+    // The mean green of the leaf, seen from above.
+    let mut green = |lighting, diffuse_transmission, sunlight: Vec3, shaded: bool| {
+        let settings = TexelSettings {
+            lighting,
+            diffuse_transmission,
+            ..default()
+        };
+        let world = studio.world();
+        world
+            .entity_mut(sun)
+            .insert(Transform::default().looking_to(sunlight, Vec3::X));
+        let mut surface = world.entity_mut(surface);
+        surface.insert(settings);
+        if shaded {
+            surface.remove::<NotShadowReceiver>();
+        } else {
+            surface.insert(NotShadowReceiver);
+        }
+        studio.headless.step();
+        let picture = studio.photograph(&shot(Vec3::new(0.6, 3.0, -0.4)), Color::BLACK);
+        let bytes = picture.rgb_bytes();
+        let greens = bytes.chunks_exact(3).map(|color| f64::from(color[1]));
+        let seen = greens.clone().filter(|&green| green > 0.0).count();
+        assert!(seen > 1_000, "{seen} pixels show the leaf");
+        greens.sum::<f64>() / seen as f64
+    };
+    let (down, up) = (Vec3::new(0.3, -1.0, 0.2), Vec3::new(0.3, 1.0, 0.2));
+    for lighting in [PlantLighting::Simple, PlantLighting::Full] {
+        let solid = green(lighting, 0.0, down, true);
+        let solid_behind = green(lighting, 0.0, up, true);
+        let front = green(lighting, 0.5, down, true);
+        let behind = green(lighting, 0.5, up, true);
+        let unshaded = green(lighting, 0.5, up, false);
+        println!(
+            "{lighting:?}: solid {solid:.1} {solid_behind:.1}, half {front:.1} {behind:.1} ({unshaded:.1})"
+        );
+        assert!(solid > 2.0 * solid_behind, "what is solid is dark behind");
+        assert!(front < solid && behind > 1.5 * solid_behind);
+        // Gloss, 0.018 of 0.5, is on the front alone in full light.
+        assert!((front - behind).abs() < 0.04 * front, "{front} {behind}");
+        // Rounding to a byte.
+        assert!((behind - unshaded).abs() < 0.5, "{behind} {unshaded}");
     }
 }

@@ -50,15 +50,18 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let normal = world_normal(in, inner.normal);
     // Lit and shadowed where the surface is, above the inside that slices show (§4.1).
     let way = view_direction(in.world_position.xyz - view.world_position);
-    let surface = in.world_position.xyz + way * inner.along + normal * in.stand_off;
+    let surface = in.world_position.xyz + way * inner.along;
     var input = pbr_types::pbr_input_new();
     input.material.base_color = vec4(seen, 1.0);
     input.material.perceptual_roughness = texels.roughness;
     input.material.reflectance = vec3(texels.reflectance);
+    input.material.diffuse_transmission = texels.diffuse_transmission;
+    // Light from behind falls as far on the other side.
+    input.material.thickness = 2.0 * in.stand_off;
     input.material.flags = input.material.flags | pbr_types::STANDARD_MATERIAL_FLAGS_FOG_ENABLED_BIT;
     input.flags = in.flags;
     input.frag_coord = in.position;
-    input.world_position = vec4(surface, 1.0);
+    input.world_position = vec4(surface + normal * in.stand_off, 1.0);
     var color = input.material.base_color;
 #ifdef TEXEL_FULL_LIGHT
     input.world_normal = normal;
@@ -67,7 +70,9 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     input.V = pbr_functions::calculate_view(in.world_position, input.is_orthographic);
     color = pbr_functions::apply_pbr_lighting(input);
 #else ifdef TEXEL_SIMPLE_LIGHT
-    let leaf = Leaf(surface, normal, normal_spread(inner.normal), 1.0, in.position.xy, 0u, in.flags);
+    let leaf = Leaf(
+        surface, normal, normal_spread(inner.normal), 1.0, texels.diffuse_transmission, in.stand_off,
+        in.position.xy, 0u, in.flags);
     color = vec4(simple_light(leaf, seen), 1.0);
 #endif
     color = pbr_functions::main_pass_post_lighting_processing(input, color);

@@ -18,6 +18,7 @@ struct Texels {
     reflectance: f32,
     // How many slices are looked up in the layer of one: a power of two.
     inner_slices: u32,
+    diffuse_transmission: f32,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;
