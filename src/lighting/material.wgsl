@@ -61,7 +61,7 @@ fn fragment(in: VertexOutput, @builtin(front_facing) is_front: bool) -> Fragment
     out.color = pbr_functions::apply_pbr_lighting(input);
 #else ifdef PLANT_SIMPLE_LIGHT
     let leaf = Leaf(
-        in.world_position.xyz, normalize(input.world_normal), 0.0, 1.0, pbr_bindings::material.diffuse_transmission, 0.0,
+        in.world_position.xyz, normalize(input.world_normal), 0.0, 1.0, pbr_bindings::material.diffuse_transmission, 0.0, vec3(0.0),
         in.position.xy, 0u, input.flags);
     out.color = vec4(simple_light(leaf, seen.rgb), seen.a);
 #else

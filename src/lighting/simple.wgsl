@@ -10,6 +10,7 @@
     utils::interleaved_gradient_noise,
 }
 #import bevy_render::maths::PI
+#import bevy_verdure::lighting::hot_spot::hot_spot
 #import bevy_verdure::lighting::spread::mean_cosine
 
 // What is lit.
@@ -25,6 +26,8 @@ struct Leaf {
     transmission: f32,
     // How far above it shadows are received, on the side that the light falls on.
     stand_off: f32,
+    // As long as it is for `hot_spot`.
+    toward_eye: vec3<f32>,
     // Where on the screen.
     pixel: vec2<f32>,
     // Tells it from others behind the same pixel.
@@ -65,7 +68,7 @@ fn sunlight(light: u32, leaf: Leaf, cosine: f32, depth: f32) -> f32 {
     let above = (*l).shadow_normal_bias * (*l).cascades[cascade].texel_size + leaf.stand_off;
     // Light that comes through falls on the other side.
     let offset = select(above, -above, leaf.transmission > 0.0 && cosine < 0.0) * leaf.normal
-        + (*l).shadow_depth_bias * (*l).direction_to_light;
+        + ((*l).shadow_depth_bias + hot_spot(leaf.toward_eye, (*l).direction_to_light)) * (*l).direction_to_light;
     let place = in_map(light, cascade, leaf.position + offset);
     let share = sample_shadow_map_hardware(place.xy, place.z, i32((*l).depth_texture_base_index + cascade));
     let is_in = all(saturate(place) == place) && depth < (*l).cascades[last].far_bound;

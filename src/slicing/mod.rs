@@ -32,8 +32,8 @@
 //!   correction f_c for the whole crown.
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
 //! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
-//! * For eyes above and below, leaves of upright slices are turned up and down, and shadows received before the slice
-//!   ([`blend::leaning`], [`blend::ahead`]): the eye sees others of a crown's leaves than a level one.
+//! * For eyes above and below, leaves of slices are turned to the eye ([`blend::leaning`]), and for eyes before the sun shadows are received
+//!   nearer to it ([`blend::hot_spot_vector`]): such eyes see others of a crown's leaves than level ones beside it.
 //! * Up close the discrepancy angle is taken part by part ([`DiscrepancyAngle`]), which §4 proposes.
 //! * Levels of fewer slices take over with distance, faded into one another.
 //! * Directional lights see one slice that faces them, whose leaves lie at depths by chance ([`blend::first_leaf`]).

@@ -1,28 +1,39 @@
-//! How the leaves of a slice are lit for an eye above or below: it sees others of them than the eye that they were baked for.
+//! How the leaves of a slice are lit for an eye above or below, or before the sun: it sees others of them than the eye that they were
+//! baked for.
 //! `shaders/seen.wgsl` has the same functions by the same names.
 
 use core::f32::consts::FRAC_PI_2;
 
-use bevy::math::Vec3;
+use bevy::math::{Vec3, Vec3Swizzles};
 
 use crate::slicing::slicing::SlicingShape;
 
 /// By how much of the eye's elevation leaves of upright slices are turned up. 1 would suit leaves that look everywhere, for of
 /// them an eye sees the same share at each angle to itself. Most lie flatter, so that an eye above sees more of their tops.
-pub const LEAN: f32 = 1.25;
+pub const LEAN: f32 = 1.5;
 
-/// How far before a slice the leaves are that an eye straight above sees: this share of the distance between slices, and no more
-/// than that of the slicing box.
-pub const AHEAD: [f32; 2] = [0.35, 0.12];
+/// By how much of the eye's way down from straight above leaves of the vertical slicing are turned down to it: for the same reason by
+/// less than all of it.
+pub const LEAN_DOWN: f32 = 0.5;
+
+/// How far before the leaves of a slice light is met, that comes from straight behind the eye: this share of the distance between slices,
+/// and no more than that of the slicing box.
+pub const HOT_SPOT: [f32; 2] = [0.65, 0.13];
 
 /// Where the leaves of a slice look in the mean, that look to its `front` (unit) for an eye there, for an eye in a `direction` (unit):
-/// from upright slices up or down, from others as they were baked.
+/// from upright slices up or down, from vertical ones aside to it, from those over a sphere as they were baked.
 pub fn leaning(shape: &SlicingShape, front: Vec3, direction: Vec3) -> Vec3 {
-    if !shape.is_upright(front) {
+    if shape.sphere {
         return front;
     }
-    let rise = (LEAN * direction.y.clamp(-1.0, 1.0).asin()).clamp(-FRAC_PI_2, FRAC_PI_2);
-    front * rise.cos() + Vec3::new(0.0, rise.sin(), 0.0)
+    let elevation = direction.y.clamp(-1.0, 1.0).asin();
+    if shape.is_upright(front) {
+        let rise = (LEAN * elevation).clamp(-FRAC_PI_2, FRAC_PI_2);
+        return front * rise.cos() + Vec3::new(0.0, rise.sin(), 0.0);
+    }
+    let fall = LEAN_DOWN * (FRAC_PI_2 - elevation.abs());
+    let level = Vec3::new(direction.x, 0.0, direction.z) / direction.xz().length().max(1e-6);
+    front * fall.cos() + level * fall.sin()
 }
 
 /// A `normal`, turned as the direction `before` has to be to become the one `after` (both unit, and not opposite).
@@ -32,10 +43,9 @@ pub fn turned(normal: Vec3, before: Vec3, after: Vec3) -> Vec3 {
         + after * (2.0 * before.dot(normal))
 }
 
-/// How far towards an eye in a `direction` (unit) a slice receives shadows, in metres: slices are so far apart (`spacing`), and their box is
-/// so `deep`. An eye above looks from where the sun does, and sees the leaves that the sun reaches first; a level one sees
-/// sun and shade. Along its way, which is longer the flatter it meets the slice that looks to a `front` (unit), up to twice.
-pub fn ahead(spacing: f32, deep: f32, front: Vec3, direction: Vec3) -> f32 {
-    let most = (AHEAD[0] * spacing).min(AHEAD[1] * deep);
-    most * direction.y.abs() / front.dot(direction).abs().max(0.5)
+/// A vector `to_eye` (unit), as long as it is for [`hot_spot`](crate::lighting::hot_spot), in metres: slices are so far apart (`spacing`),
+/// and their box is so `deep`. A slice holds the leaves of its layer half-way; where sun and eye are on one side of it,
+/// the eye sees those that are nearer to both.
+pub fn hot_spot_vector(spacing: f32, deep: f32, to_eye: Vec3) -> Vec3 {
+    (HOT_SPOT[0] * spacing).min(HOT_SPOT[1] * deep).sqrt() * to_eye
 }

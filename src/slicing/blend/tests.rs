@@ -206,7 +206,7 @@ fn upright_slices_count_for_the_leaves_between_them_from_above() {
 }
 
 #[test]
-fn leaves_of_upright_slices_look_up_to_an_eye_above_and_down_to_one_below() {
+fn leaves_look_up_to_an_eye_above_and_down_to_one_below() {
     let shape = shape(Orientations::Circle(6), true);
     let front = horizontal(60.0);
     // Roundings of unit vectors.
@@ -222,8 +222,15 @@ fn leaves_of_upright_slices_look_up_to_an_eye_above_and_down_to_one_below() {
         assert!((found.length() - 1.0).abs() < 1e-6);
         assert!((found.dot(leans) - normal.dot(front)).abs() < 1e-6);
     }
-    let vertical = Vec3::NEG_Y;
-    assert_eq!(leaning(&shape, vertical, Vec3::Y), vertical);
+    // Those of the vertical slicing look to the eye that comes down, and as they were baked for one straight below.
+    for front in [Vec3::Y, Vec3::NEG_Y] {
+        assert!(leaning(&shape, front, front).distance(front) < 1e-6);
+        let eye = front * f32::cos(0.6) + horizontal(60.0) * f32::sin(0.6);
+        let leans = leaning(&shape, front, eye);
+        // Arc sines next to a right angle are good to four digits.
+        assert!((leans.angle_between(front) - 0.6 * LEAN_DOWN).abs() < 1e-3);
+        assert!(leans.angle_between(eye) < 0.6);
+    }
 }
 
 #[test]

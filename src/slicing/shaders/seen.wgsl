@@ -3,17 +3,25 @@
 // How the leaves of a slice are lit for an eye above or below, function by function what blend/seen.rs is.
 
 #import bevy_verdure::slicing::blend::is_upright
+#import bevy_verdure::slicing::types::crown
 
-const LEAN: f32 = 1.25;
+const LEAN: f32 = 1.5;
+const LEAN_DOWN: f32 = 0.5;
 const STEEPEST: f32 = 1.5707964;
-const AHEAD: vec2<f32> = vec2(0.35, 0.12);
+const HOT_SPOT: vec2<f32> = vec2(0.65, 0.13);
 
 fn leaning(front: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
-    if !is_upright(front) {
+    if crown.sphere != 0u {
         return front;
     }
-    let rise = clamp(LEAN * asin(clamp(direction.y, -1.0, 1.0)), -STEEPEST, STEEPEST);
-    return front * cos(rise) + vec3(0.0, sin(rise), 0.0);
+    let elevation = asin(clamp(direction.y, -1.0, 1.0));
+    if is_upright(front) {
+        let rise = clamp(LEAN * elevation, -STEEPEST, STEEPEST);
+        return front * cos(rise) + vec3(0.0, sin(rise), 0.0);
+    }
+    let fall = LEAN_DOWN * (STEEPEST - abs(elevation));
+    let level = direction.xz / max(length(direction.xz), 1e-6);
+    return front * cos(fall) + vec3(level.x, 0.0, level.y) * sin(fall);
 }
 
 fn turned(normal: vec3<f32>, before: vec3<f32>, after: vec3<f32>) -> vec3<f32> {
@@ -21,7 +29,6 @@ fn turned(normal: vec3<f32>, before: vec3<f32>, after: vec3<f32>) -> vec3<f32> {
     return normal - half * (dot(half, normal) / (1.0 + dot(before, after))) + after * (2.0 * dot(before, normal));
 }
 
-fn ahead(spacing: f32, deep: f32, front: vec3<f32>, direction: vec3<f32>) -> f32 {
-    let most = min(AHEAD.x * spacing, AHEAD.y * deep);
-    return most * abs(direction.y) / max(abs(dot(front, direction)), 0.5);
+fn hot_spot_vector(spacing: f32, deep: f32, to_eye: vec3<f32>) -> vec3<f32> {
+    return sqrt(min(HOT_SPOT.x * spacing, HOT_SPOT.y * deep)) * to_eye;
 }

@@ -71,7 +71,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     color = pbr_functions::apply_pbr_lighting(input);
 #else ifdef TEXEL_SIMPLE_LIGHT
     let leaf = Leaf(
-        surface, normal, normal_spread(inner.normal), 1.0, texels.diffuse_transmission, in.stand_off,
+        surface, normal, normal_spread(inner.normal), 1.0, texels.diffuse_transmission, in.stand_off, vec3(0.0),
         in.position.xy, 0u, in.flags);
     color = vec4(simple_light(leaf, seen), 1.0);
 #endif
