@@ -11,7 +11,7 @@
 #ifdef PLANT_FULL_LIGHT
 #import bevy_pbr::pbr_fragment::pbr_input_from_standard_material
 #endif
-#import bevy_verdure::lighting::simple::{Leaf, simple_light}
+#import bevy_verdure::lighting::simple::{Leaf, simple_light, transmission_of}
 
 #ifndef PLANT_FULL_LIGHT
 fn plant_input(in: VertexOutput, is_front: bool) -> pbr_types::PbrInput {
@@ -61,7 +61,7 @@ fn fragment(in: VertexOutput, @builtin(front_facing) is_front: bool) -> Fragment
     out.color = pbr_functions::apply_pbr_lighting(input);
 #else ifdef PLANT_SIMPLE_LIGHT
     let leaf = Leaf(
-        in.world_position.xyz, normalize(input.world_normal), 0.0, 1.0, pbr_bindings::material.diffuse_transmission, 0.0, vec3(0.0),
+        in.world_position.xyz, normalize(input.world_normal), 0.0, 1.0, transmission_of(pbr_bindings::material.diffuse_transmission), 0.0,
         in.position.xy, 0u, input.flags);
     out.color = vec4(simple_light(leaf, seen.rgb), seen.a);
 #else

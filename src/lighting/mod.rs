@@ -3,9 +3,8 @@
 //!
 //! [`PlantLighting::Simple`] (`simple.wgsl`) is right only under directional lights and ambient light. So plants that ask for
 //! it are lit in full while the scene has any other light (`scene.rs`). Their wood can be lit alike (`material.rs`). Where a pixel
-//! shows many normals, it takes the mean over all of them (`spread.rs`); where the eye looks along the light, it sees what is lit (`hot_spot.rs`).
+//! shows many normals, it takes the mean over all of them (`spread.rs`).
 
-mod hot_spot;
 mod material;
 mod scene;
 mod spread;
@@ -15,7 +14,6 @@ use bevy::pbr::MaterialPlugin;
 use bevy::prelude::*;
 use bevy::shader::load_shader_library;
 
-pub use hot_spot::hot_spot;
 pub use material::{LitAsPlant, PlantMaterial};
 pub(crate) use scene::{SceneLighting, SceneLights};
 pub use spread::mean_cosine;
@@ -52,7 +50,6 @@ impl LightingPlugin {
 
 impl Plugin for LightingPlugin {
     fn build(&self, app: &mut App) {
-        load_shader_library!(app, "hot_spot.wgsl");
         load_shader_library!(app, "spread.wgsl");
         load_shader_library!(app, "simple.wgsl");
         embedded_asset!(app, "material.wgsl");

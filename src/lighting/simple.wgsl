@@ -10,7 +10,6 @@
     utils::interleaved_gradient_noise,
 }
 #import bevy_render::maths::PI
-#import bevy_verdure::lighting::hot_spot::hot_spot
 #import bevy_verdure::lighting::spread::mean_cosine
 
 // What is lit.
@@ -26,8 +25,6 @@ struct Leaf {
     transmission: f32,
     // How far above it shadows are received, on the side that the light falls on.
     stand_off: f32,
-    // As long as it is for `hot_spot`.
-    toward_eye: vec3<f32>,
     // Where on the screen.
     pixel: vec2<f32>,
     // Tells it from others behind the same pixel.
@@ -43,6 +40,15 @@ const COLOR_AROUND: f32 = 0.452;
 const GLOSS_AROUND: f32 = 0.013;
 // Gloss under a directional light, as if that were scattered evenly.
 const GLOSS: f32 = 0.018;
+
+// A leaf's `transmission`, where any leaf of the draw has one: told by the pipeline, it costs nothing where none has.
+fn transmission_of(transmission: f32) -> f32 {
+#ifdef STANDARD_MATERIAL_DIFFUSE_TRANSMISSION
+    return transmission;
+#else
+    return 0.0;
+#endif
+}
 
 // A number from 0 to 1 for a pixel. Layers that lie one behind the other have other ones.
 fn noise(leaf: Leaf) -> f32 {
@@ -68,7 +74,7 @@ fn sunlight(light: u32, leaf: Leaf, cosine: f32, depth: f32) -> f32 {
     let above = (*l).shadow_normal_bias * (*l).cascades[cascade].texel_size + leaf.stand_off;
     // Light that comes through falls on the other side.
     let offset = select(above, -above, leaf.transmission > 0.0 && cosine < 0.0) * leaf.normal
-        + ((*l).shadow_depth_bias + hot_spot(leaf.toward_eye, (*l).direction_to_light)) * (*l).direction_to_light;
+        + (*l).shadow_depth_bias * (*l).direction_to_light;
     let place = in_map(light, cascade, leaf.position + offset);
     let share = sample_shadow_map_hardware(place.xy, place.z, i32((*l).depth_texture_base_index + cascade));
     let is_in = all(saturate(place) == place) && depth < (*l).cascades[last].far_bound;

@@ -273,6 +273,27 @@ pub(crate) fn follow_lights(
     }
 }
 
+/// Tells the materials of the brightest sun that casts shadows.
+pub(crate) fn follow_sun(
+    library: Res<CrownLibrary>,
+    mut materials: ResMut<Assets<SlicedCrownMaterial>>,
+    suns: Query<(&DirectionalLight, &GlobalTransform, &InheritedVisibility)>,
+) {
+    let brightest = suns
+        .iter()
+        .filter(|(sun, _, visible)| sun.shadow_maps_enabled && visible.get())
+        .max_by(|(a, ..), (b, ..)| a.illuminance.total_cmp(&b.illuminance));
+    let to_sun = brightest.map_or(Vec3::ZERO, |(_, place, _)| place.back().as_vec3());
+    let all = library.shared.values();
+    for (_, material) in all.flat_map(Shared::each_material) {
+        if let Some(mut material) = materials.get_mut(material)
+            && material.crown.sun != to_sun.extend(0.0)
+        {
+            material.crown.sun = to_sun.extend(0.0);
+        }
+    }
+}
+
 /// Tells the meshes' tags of changed tints.
 pub(crate) fn tint(mut crowns: Query<(Entity, &CrownTint, &mut MeshTag), Changed<CrownTint>>) {
     for (entity, tint, mut tag) in &mut crowns {

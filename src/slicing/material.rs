@@ -55,6 +55,8 @@ pub(crate) struct CrownUniform {
     diffuse_transmission: f32,
     /// Velocity of the wind.
     pub(crate) wind: Vec4,
+    /// Direction to the brightest sun that casts shadows, or 0.
+    pub(crate) sun: Vec4,
     orientations: [OrientationUniform; MAX_ORIENTATIONS],
 }
 
@@ -87,6 +89,8 @@ impl CrownUniform {
             widest: widest(shape),
             diffuse_transmission: shape.diffuse_transmission,
             wind: wind.extend(0.0),
+            // Until `follow_sun` says otherwise, in this very frame.
+            sun: Vec4::ZERO,
             orientations,
         }
     }
@@ -208,8 +212,8 @@ impl Material for SlicedCrownMaterial {
             (crown.parts, "CROWN_PARTS"),
             (crown.compressed, "CROWN_COMPRESSED"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
-            // Bevy's full light asks for it.
             (is_tone_mapped_later, "CROWN_TONE_MAPPED_LATER"),
+            // Bevy's full light asks for it.
             (crown.transmits, "STANDARD_MATERIAL_DIFFUSE_TRANSMISSION"),
         ]);
         define(descriptor, defs);

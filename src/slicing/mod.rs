@@ -33,7 +33,9 @@
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
 //! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
 //! * For eyes above and below, leaves of slices are turned to the eye ([`blend::leaning`]), and for eyes before the sun shadows are received
-//!   nearer to it ([`blend::hot_spot_vector`]): such eyes see others of a crown's leaves than level ones beside it.
+//!   nearer to it ([`blend::hot_spot`]): such eyes see others of a crown's leaves than level ones beside it.
+//! * In HDR blended slices count for more, since tone mapping comes after blending.
+//! * Light comes through leaves from behind, as their material says.
 //! * Up close the discrepancy angle is taken part by part ([`DiscrepancyAngle`]), which §4 proposes.
 //! * Levels of fewer slices take over with distance, faded into one another.
 //! * Directional lights see one slice that faces them, whose leaves lie at depths by chance ([`blend::first_leaf`]).
@@ -150,10 +152,10 @@ impl Plugin for SlicingPlugin {
             )
             .add_systems(
                 PostUpdate,
-                near::part_by_part
+                (near::part_by_part, library::follow_sun)
                     .run_if(resource_exists::<Assets<ShaderBuffer>>)
                     .after(VerdureSystems::Attach)
-                    // Where crowns and cameras are in this frame.
+                    // Where crowns, cameras and suns are in this frame.
                     .after(TransformSystems::Propagate)
                     .before(AssetEventSystems),
             );

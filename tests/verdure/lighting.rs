@@ -1,7 +1,6 @@
 //! The shaders' formulas of light against those in Rust: `spread.wgsl` is run as it is.
 
-use bevy::math::Vec3;
-use bevy_verdure::lighting::{hot_spot, mean_cosine};
+use bevy_verdure::lighting::mean_cosine;
 
 use crate::compute::run;
 
@@ -32,35 +31,5 @@ fn light_on_many_normals_is_the_same_in_both() {
             (found[0] - expected).abs() < 1e-6,
             "{case:?}: {found:?} {expected}"
         );
-    }
-}
-
-/// The same for vectors to the eye and to the light.
-const HOT_SPOTS: &str = r"
-fn work(i: u32) {
-    let toward_eye = vec3(cases[i][0], cases[i][1], cases[i][2]);
-    let to_light = vec3(cases[i][3], cases[i][4], cases[i][5]);
-    put(i, 0u, vec3(hot_spot(toward_eye, to_light), 0.0, 0.0));
-}
-";
-
-#[test]
-fn hot_spots_are_the_same_in_both() {
-    let unit = |i: u32| {
-        let (sin, cos) = (i as f32 * 2.4).sin_cos();
-        let height = 1.0 - 2.0 * (i as f32 + 0.5) / 64.0;
-        (Vec3::new(cos, 0.0, sin) * (1.0 - height * height).sqrt()).with_y(height)
-    };
-    let cases: Vec<[f32; 6]> = (0..64)
-        .flat_map(|i| (0..64).map(move |k| (unit(i) * 0.7, unit(k))))
-        .map(|(eye, light)| [eye.x, eye.y, eye.z, light.x, light.y, light.z])
-        .collect();
-    let shader = include_str!("../../src/lighting/hot_spot.wgsl");
-    let found = run::<6, 4>(&[shader, HOT_SPOTS], &cases);
-    assert_eq!(found.len(), cases.len());
-    for (case, found) in cases.iter().zip(found) {
-        let expected = hot_spot(Vec3::from_slice(&case[..3]), Vec3::from_slice(&case[3..]));
-        // A few roundings of numbers up to 1.
-        assert!((found[0] - expected).abs() < 1e-6, "{case:?}: {found:?}");
     }
 }

@@ -167,7 +167,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     input.flags = mesh[in.instance_index].flags;
     input.frag_coord = in.position;
     input.world_position = vec4(in.world_position, 1.0);
-    let leaf = Leaf(in.world_position, normal, 0.0, baked.a, 0.0, 0.0, vec3(0.0), in.position.xy, in.layers.x, input.flags);
+    let leaf = Leaf(in.world_position, normal, 0.0, baked.a, 0.0, 0.0, in.position.xy, in.layers.x, input.flags);
     let lit = vec4(simple_light(leaf, color), alpha);
     return vec4(pbr_functions::main_pass_post_lighting_processing(input, lit).rgb, alpha);
 }

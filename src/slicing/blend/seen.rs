@@ -43,9 +43,11 @@ pub fn turned(normal: Vec3, before: Vec3, after: Vec3) -> Vec3 {
         + after * (2.0 * before.dot(normal))
 }
 
-/// A vector `to_eye` (unit), as long as it is for [`hot_spot`](crate::lighting::hot_spot), in metres: slices are so far apart (`spacing`),
-/// and their box is so `deep`. A slice holds the leaves of its layer half-way; where sun and eye are on one side of it,
-/// the eye sees those that are nearer to both.
-pub fn hot_spot_vector(spacing: f32, deep: f32, to_eye: Vec3) -> Vec3 {
-    (HOT_SPOT[0] * spacing).min(HOT_SPOT[1] * deep).sqrt() * to_eye
+/// From the leaves of a slice to those of them, in metres, of which an eye in a direction `to_eye` sees what the light of a sun in a direction
+/// `to_sun` (both unit) reaches: slices are so far apart (`spacing`), and their box is so `deep`. A slice holds the leaves of its layer
+/// half-way. An eye that looks along the light sees those that the light meets first, the hot spot of canopies (A. Kuusk, *The Hot
+/// Spot Effect of a Uniform Vegetative Cover*, 1985); it goes as the square of the cosine between both.
+pub fn hot_spot(spacing: f32, deep: f32, to_eye: Vec3, to_sun: Vec3) -> Vec3 {
+    let near = to_eye.dot(to_sun).max(0.0);
+    (HOT_SPOT[0] * spacing).min(HOT_SPOT[1] * deep) * near * near * to_sun
 }

@@ -234,6 +234,19 @@ fn leaves_look_up_to_an_eye_above_and_down_to_one_below() {
 }
 
 #[test]
+fn the_hot_spot_is_where_the_eye_looks_along_the_light() {
+    let sun = Vec3::new(0.0, 0.6, 0.8);
+    // The nearer of both bounds, here by the distance between slices.
+    let most = HOT_SPOT[0] * 0.1;
+    assert!(hot_spot(0.1, 1.0, sun, sun).distance(most * sun) < 1e-6);
+    assert!(hot_spot(0.1, 1.0, Vec3::Z, sun).distance(0.64 * most * sun) < 1e-6);
+    assert!(hot_spot(1.0, 1.0, sun, sun).distance(HOT_SPOT[1] * sun) < 1e-6);
+    // None where the light comes from before the eye, or there is none.
+    assert_eq!(hot_spot(0.1, 1.0, Vec3::NEG_Y, sun), Vec3::ZERO);
+    assert_eq!(hot_spot(0.1, 1.0, sun, Vec3::ZERO), Vec3::ZERO);
+}
+
+#[test]
 fn shadows_are_cast_by_the_slicing_that_faces_the_light() {
     let shape = shape(Orientations::Circle(6), true);
     for (light, orientation) in [(Vec3::Y, 6), (horizontal(100.0), 2), (horizontal(-5.0), 0)] {

@@ -5,14 +5,11 @@
     pbr_types,
 }
 #import bevy_pbr::mesh_bindings::mesh
-#import bevy_pbr::mesh_view_bindings::lights
-#import bevy_pbr::mesh_view_types::DIRECTIONAL_LIGHT_FLAGS_SHADOWS_ENABLED_BIT
-#import bevy_verdure::lighting::hot_spot::hot_spot
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
 #import bevy_verdure::slicing::types::crown
 #import bevy_verdure::slicing::lots::{cells, footprint, lot_of}
-#import bevy_verdure::lighting::simple::{Leaf, simple_light}
+#import bevy_verdure::lighting::simple::{Leaf, simple_light, transmission_of}
 
 // Opacity below which a place is not worth its light.
 #ifdef CROWN_PAPER_ORDER
@@ -49,14 +46,6 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     input.frag_coord = in.position;
     input.world_position = vec4(in.world_position, 1.0);
 #ifdef CROWN_FULL_LIGHT
-    // One place for all lights: that of the first sun that casts shadows.
-    for (var i = 0u; i < lights.n_directional_lights; i += 1u) {
-        if (lights.directional_lights[i].flags & DIRECTIONAL_LIGHT_FLAGS_SHADOWS_ENABLED_BIT) != 0u {
-            let to_light = lights.directional_lights[i].direction_to_light;
-            input.world_position += vec4(hot_spot(in.toward_eye, to_light) * to_light, 0.0);
-            break;
-        }
-    }
     let facing = slice_facing(in);
     input.material.perceptual_roughness = 0.75;
     input.material.reflectance = vec3(0.3);
@@ -71,7 +60,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
 #else ifdef CROWN_SIMPLE_LIGHT
     let facing = slice_facing(in);
     let leaf = Leaf(
-        in.world_position, facing.normal, 0.0, facing.occlusion, crown.diffuse_transmission, 0.0, in.toward_eye,
+        in.world_position, facing.normal, 0.0, facing.occlusion, transmission_of(crown.diffuse_transmission), 0.0,
         in.position.xy, in.layer, input.flags);
     var color = vec4(simple_light(leaf, seen.rgb), seen.a);
 #else

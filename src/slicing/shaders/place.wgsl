@@ -10,7 +10,7 @@
 #import bevy_verdure::slicing::blend::FOCAL
 #import bevy_verdure::slicing::drawn::{cast_slice, drawn_slice}
 #import bevy_verdure::slicing::cast::facing
-#import bevy_verdure::slicing::seen::{hot_spot_vector, leaning, turned}
+#import bevy_verdure::slicing::seen::{hot_spot, leaning, turned}
 #import bevy_verdure::slicing::parts::{deviation, part_direction, part_turn}
 #import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
@@ -77,9 +77,6 @@ struct Varying {
     @location(9) @interpolate(flat) turn_z: vec3<f32>,
 #ifdef PREPASS_PIPELINE
     @location(12) local_position: vec3<f32>,
-#else
-    // As long as it is for `hot_spot`, in world space.
-    @location(12) @interpolate(flat) toward_eye: vec3<f32>,
 #endif
     // The mip level that suits the slice's size.
     @location(11) @interpolate(flat) lod: f32,
@@ -254,7 +251,8 @@ fn place_corner(in: Corner) -> Varying {
     out.turn_z = turn * turned(vec3(0.0, 0.0, 1.0) - 2.0 * back.z * back, front, leans);
 #ifndef PREPASS_PIPELINE
     let to_eye = normalize(world_from_local(in.instance_index) * direction);
-    out.toward_eye = hot_spot_vector(spacing * metre(in.instance_index), size.z * metre(in.instance_index), to_eye);
+    let metres = metre(in.instance_index);
+    out.world_position += hot_spot(spacing * metres, size.z * metres, to_eye, crown.sun.xyz);
 #else
     // Moved likewise in the frame before, so that motion vectors leave wind out.
     out.local_position = local + local_from_world(in.instance_index) * moved;

@@ -29,6 +29,7 @@ fn turned(normal: vec3<f32>, before: vec3<f32>, after: vec3<f32>) -> vec3<f32> {
     return normal - half * (dot(half, normal) / (1.0 + dot(before, after))) + after * (2.0 * dot(before, normal));
 }
 
-fn hot_spot_vector(spacing: f32, deep: f32, to_eye: vec3<f32>) -> vec3<f32> {
-    return sqrt(min(HOT_SPOT.x * spacing, HOT_SPOT.y * deep)) * to_eye;
+fn hot_spot(spacing: f32, deep: f32, to_eye: vec3<f32>, to_sun: vec3<f32>) -> vec3<f32> {
+    let near = max(dot(to_eye, to_sun), 0.0);
+    return min(HOT_SPOT.x * spacing, HOT_SPOT.y * deep) * near * near * to_sun;
 }

@@ -30,6 +30,8 @@ struct Crown {
     diffuse_transmission: f32,
     // xyz: velocity.
     wind: vec4<f32>,
+    // xyz: to the brightest sun that casts shadows, or 0.
+    sun: vec4<f32>,
     orientations: array<Orientation, 32>,
 }
 

@@ -5,7 +5,7 @@
     pbr_functions,
     pbr_types,
 }
-#import bevy_verdure::lighting::simple::{Leaf, simple_light}
+#import bevy_verdure::lighting::simple::{Leaf, simple_light, transmission_of}
 #import bevy_verdure::texel::look::{seen_samples, slice_normal_and_alpha}
 #ifdef TEXEL_INNER
 #import bevy_pbr::mesh_view_bindings::view
@@ -71,7 +71,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     color = pbr_functions::apply_pbr_lighting(input);
 #else ifdef TEXEL_SIMPLE_LIGHT
     let leaf = Leaf(
-        surface, normal, normal_spread(inner.normal), 1.0, texels.diffuse_transmission, in.stand_off, vec3(0.0),
+        surface, normal, normal_spread(inner.normal), 1.0, transmission_of(texels.diffuse_transmission), in.stand_off,
         in.position.xy, 0u, in.flags);
     color = vec4(simple_light(leaf, seen), 1.0);
 #endif
