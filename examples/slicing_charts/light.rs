@@ -184,7 +184,7 @@ pub fn light_by_azimuth(lab: &mut Lab) -> Result<Chart, String> {
                 .enumerate()
                 .map(|(i, turn)| (f64::from(*turn), sliced[i] / mesh[i]));
             lines.push((
-                format!("sun {elevation}\u{b0} high, {distance} m"),
+                format!("sun {elevation} degrees high, {distance} m"),
                 ratios.collect::<Vec<_>>(),
             ));
         }
@@ -201,7 +201,7 @@ pub fn light_by_azimuth(lab: &mut Lab) -> Result<Chart, String> {
         title: "Light of a crown of slices, over the mesh's, by azimuth from the sun's".into(),
         series: series.collect(),
         subtitle: lab.adapter.clone(),
-        x: Axis::linear("degrees between eye and sun"),
+        x: Axis::linear("azimuth of the eye from the sun (degrees)"),
         y: Axis::linear("ratio to the mesh"),
     })
 }
