@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use bevy::math::Mat4;
-use bevy_verdure::lab::{ModelPart, broadleaf_crown, load_model, save_slicing};
+use bevy_verdure::lab::{ModelPart, broadleaf_crown, load_model, parse_share, save_slicing};
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::{bake_with_progress, separate};
@@ -54,15 +54,6 @@ struct Args {
     /// What a broadleaf grows from.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-}
-
-/// Reads a share, of which 0 is nothing and 1 is all.
-fn parse_share(text: &str) -> Result<f32, String> {
-    let share = text
-        .parse()
-        .ok()
-        .filter(|share| (0.0..=1.0).contains(share));
-    share.ok_or_else(|| format!("'{text}' is no share: give a number from 0 to 1"))
 }
 
 /// Reads the name of files in a folder.
@@ -161,6 +152,10 @@ fn crown(args: &Args) -> Result<(CrownMesh, usize), String> {
     let mut crown = CrownMesh::default();
     for part in parts.iter().filter(is_named) {
         crown.append(&part.crown, Mat4::IDENTITY);
+    }
+    // Files do not say.
+    for material in &mut crown.materials {
+        material.diffuse_transmission = args.transmission;
     }
     if args.sparse.is_empty() {
         crown = separate(&crown, args.share).sparse;

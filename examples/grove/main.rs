@@ -49,7 +49,7 @@ struct Args {
     #[arg(long, value_enum, default_value_t = Light::Simple)]
     light: Light,
     /// The share of light that comes through leaves from behind, 0 to 1. A slicing that is given has its own.
-    #[arg(long, default_value_t = 0.4)]
+    #[arg(long, default_value_t = 0.4, value_parser = bevy_verdure::lab::parse_share)]
     transmission: f32,
     /// The paper's order of slices.
     #[arg(long)]

@@ -76,19 +76,39 @@ fn from_above(lab: &mut Lab, drawn: &Drawn, distances: &[f32]) -> Vec<[f64; 2]> 
     all
 }
 
-/// A chart of ratios to the mesh by elevation, one line a name.
-fn elevation_chart(lab: &Lab, title: &str, lines: Vec<(String, Vec<f64>)>) -> Chart {
+/// A chart of ratios to the mesh by `places` along `x`, one line a name.
+fn ratio_chart(
+    lab: &Lab,
+    title: &str,
+    x: &str,
+    places: &[f32],
+    lines: impl IntoIterator<Item = (String, Vec<f64>)>,
+) -> Chart {
     let series = lines.into_iter().map(|(name, ratios)| {
         println!("{name}: {ratios:.3?}");
-        let elevations = ELEVATIONS.iter().map(|e| f64::from(*e));
-        Series::line(name, elevations.zip(ratios))
+        Series::line(name, places.iter().map(|at| f64::from(*at)).zip(ratios))
     });
     Chart {
         title: title.into(),
         series: series.collect(),
         subtitle: lab.adapter.clone(),
-        x: Axis::linear("elevation (degrees)"),
+        x: Axis::linear(x),
         y: Axis::linear("ratio to the mesh"),
+    }
+}
+
+/// The same by elevation of the eye.
+fn elevation_chart(lab: &Lab, title: &str, lines: Vec<(String, Vec<f64>)>) -> Chart {
+    ratio_chart(lab, title, "elevation (degrees)", &ELEVATIONS, lines)
+}
+
+/// Lets the sun shine in a direction.
+fn turn_sun(lab: &mut Lab, sunlight: Vec3) {
+    let world = lab.studio.world();
+    let mut suns = world.query_filtered::<&mut Transform, With<DirectionalLight>>();
+    for mut sun in suns.iter_mut(world) {
+        // It may shine straight down.
+        sun.look_to(sunlight, Vec3::Z);
     }
 }
 
@@ -122,11 +142,7 @@ pub fn light_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
         ("sun of the grove", SUNLIGHT),
         ("sun overhead", Vec3::NEG_Y),
     ] {
-        let world = lab.studio.world();
-        let mut suns = world.query_filtered::<&mut Transform, With<DirectionalLight>>();
-        for mut sun in suns.iter_mut(world) {
-            sun.look_to(towards, Vec3::Z);
-        }
+        turn_sun(lab, towards);
         let [mesh, sliced] = [Drawn::Mesh, Drawn::Slicing(slicing.clone(), default())]
             .map(|drawn| from_above(lab, &drawn, distances));
         let ratios: Vec<f64> = mesh.iter().zip(&sliced).map(|(m, s)| s[1] / m[1]).collect();
@@ -138,72 +154,50 @@ pub fn light_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
     Ok(elevation_chart(lab, title, lines))
 }
 
-/// The light of a crown, over the mesh's, for eyes as high as the sun, by how far they are turned from it, low and high.
+/// How far eyes are turned from the sun, in degrees of azimuth.
+const TURNS: [f32; 7] = [0.0, 20.0, 40.0, 60.0, 90.0, 135.0, 180.0];
+
+/// The mean light of what covers what is behind, for eyes as high as the sun, turn by turn. The sun goes round, so that no direction
+/// of the tree counts for more.
+fn round_the_sun(lab: &mut Lab, drawn: &Drawn, distance: f32, elevation: f32) -> [f64; 7] {
+    let crown = planted(lab, drawn, &[Transform::IDENTITY]);
+    let all = TURNS.map(|turn| {
+        let (mut light, mut cover) = (0.0, 0.0);
+        for sun in [10.0, 85.0, 160.0, 250.0] {
+            let from_sun = shot(lab, distance, sun, elevation);
+            turn_sun(lab, from_sun.at - from_sun.eye);
+            for _ in 0..2 {
+                lab.studio.headless.step();
+            }
+            let shots = [shot(lab, distance, sun + turn, elevation)];
+            let black = brightness(lab, &shots, Color::BLACK);
+            cover += 1.0 - (brightness(lab, &shots, Color::WHITE) - black);
+            light += black;
+        }
+        light / cover
+    });
+    uproot(lab, &crown);
+    all
+}
+
+/// The light of a crown, over the mesh's, for eyes as high as the sun, low and high, by how far they are turned from it.
 pub fn light_by_azimuth(lab: &mut Lab) -> Result<Chart, String> {
-    const TURNS: [f32; 7] = [0.0, 20.0, 40.0, 60.0, 90.0, 135.0, 180.0];
     let slicing = lab.bake(&BakeSettings::default())?;
     let camera = lab.studio.camera();
     lab.studio.world().entity_mut(camera).insert(Msaa::Sample4);
-    let mut lines = Vec::new();
-    for elevation in [10.0, 47.0] {
-        for distance in [15.0, 40.0] {
-            // The sun goes round, so that no direction of the tree counts for more.
-            let mut light = |drawn: &Drawn| {
-                let crown = planted(lab, drawn, &[Transform::IDENTITY]);
-                let all = TURNS.map(|turn| {
-                    let suns = [10.0, 85.0, 160.0, 250.0];
-                    let mut sum = 0.0;
-                    let mut cover = 0.0;
-                    for sun in suns {
-                        let at = |azimuth: f32| shot(lab, distance, azimuth, elevation);
-                        let to_sun = at(sun).eye - at(sun).at;
-                        let shots = [at(sun + turn)];
-                        let world = lab.studio.world();
-                        let mut query =
-                            world.query_filtered::<&mut Transform, With<DirectionalLight>>();
-                        for mut sun in query.iter_mut(world) {
-                            sun.look_to(-to_sun, Vec3::Y);
-                        }
-                        for _ in 0..2 {
-                            lab.studio.headless.step();
-                        }
-                        let black = brightness(lab, &shots, Color::BLACK);
-                        cover += 1.0 - (brightness(lab, &shots, Color::WHITE) - black);
-                        sum += black;
-                    }
-                    sum / cover
-                });
-                uproot(lab, &crown);
-                all
-            };
-            let mesh = light(&Drawn::Mesh);
-            let sliced = light(&Drawn::Slicing(slicing.clone(), default()));
-            println!("{elevation} {distance}: mesh {mesh:.3?}");
-            let ratios = TURNS
-                .iter()
-                .enumerate()
-                .map(|(i, turn)| (f64::from(*turn), sliced[i] / mesh[i]));
-            lines.push((
-                format!("sun {elevation} degrees high, {distance} m"),
-                ratios.collect::<Vec<_>>(),
-            ));
-        }
-    }
-    lab.studio.world().entity_mut(camera).insert(Msaa::Off);
-    let series = lines.into_iter().map(|(name, points)| {
-        println!(
-            "{name}: {:.3?}",
-            points.iter().map(|p| p.1).collect::<Vec<_>>()
-        );
-        Series::line(name, points)
+    let places = [10.0, 47.0].map(|elevation| [15.0, 40.0].map(|distance| (elevation, distance)));
+    let lines = places.as_flattened().iter().map(|&(elevation, distance)| {
+        let [mesh, sliced] = [Drawn::Mesh, Drawn::Slicing(slicing.clone(), default())]
+            .map(|drawn| round_the_sun(lab, &drawn, distance, elevation));
+        let ratios = mesh.iter().zip(&sliced).map(|(mesh, sliced)| sliced / mesh);
+        let name = format!("sun {elevation} degrees high, {distance} m");
+        (name, ratios.collect())
     });
-    Ok(Chart {
-        title: "Light of a crown of slices, over the mesh's, by azimuth from the sun's".into(),
-        series: series.collect(),
-        subtitle: lab.adapter.clone(),
-        x: Axis::linear("azimuth of the eye from the sun (degrees)"),
-        y: Axis::linear("ratio to the mesh"),
-    })
+    let lines: Vec<_> = lines.collect();
+    lab.studio.world().entity_mut(camera).insert(Msaa::Off);
+    let title = "Light of a crown of slices, over the mesh's, by azimuth from the sun's";
+    let x = "azimuth of the eye from the sun (degrees)";
+    Ok(ratio_chart(lab, title, x, &TURNS, lines))
 }
 
 pub fn against_distance(lab: &mut Lab) -> Result<Chart, String> {
@@ -221,17 +215,10 @@ pub fn against_distance(lab: &mut Lab) -> Result<Chart, String> {
     let names = ["cover"]
         .into_iter()
         .chain(LIGHTS.iter().map(|(name, ..)| *name));
-    let series = names.enumerate().map(|(k, name)| {
+    let lines = names.enumerate().map(|(k, name)| {
         let ratios = mesh.iter().zip(&sliced).map(|(mesh, s)| s[k] / mesh[k]);
-        let ratios: Vec<f64> = ratios.collect();
-        println!("{name}: {ratios:.3?}");
-        Series::line(name, distances.iter().map(|d| f64::from(*d)).zip(ratios))
+        (name.into(), ratios.collect())
     });
-    Ok(Chart {
-        title: "Cover and light of a crown of slices, over the mesh's".into(),
-        series: series.collect(),
-        subtitle: lab.adapter.clone(),
-        x: Axis::linear("distance (m)"),
-        y: Axis::linear("ratio to the mesh"),
-    })
+    let title = "Cover and light of a crown of slices, over the mesh's";
+    Ok(ratio_chart(lab, title, "distance (m)", distances, lines))
 }

@@ -54,7 +54,7 @@ struct Args {
     #[arg(long, value_enum, default_value_t = Light::Simple)]
     light: Light,
     /// The share of light that comes through from behind, 0 to 1, instead of the scene's.
-    #[arg(long)]
+    #[arg(long, value_parser = bevy_verdure::lab::parse_share)]
     transmission: Option<f32>,
     /// Draw a depth prepass first, so that no pixel is lit twice.
     #[arg(long)]

@@ -91,12 +91,21 @@ pub fn parse_vec3(text: &str) -> Result<Vec3, String> {
     }
 }
 
+/// Reads a share, of which 0 is nothing and 1 is all.
+pub fn parse_share(text: &str) -> Result<f32, String> {
+    let share = text
+        .parse()
+        .ok()
+        .filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| format!("'{text}' is no share: give a number from 0 to 1"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn sizes_and_points_are_read_and_nonsense_is_named() {
+    fn sizes_points_and_shares_are_read_and_nonsense_is_named() {
         assert_eq!(parse_size("640x480"), Ok(UVec2::new(640, 480)));
         assert!(parse_size("640").unwrap_err().contains("640x480"));
         assert!(parse_size("0x99999").is_err());
@@ -104,5 +113,8 @@ mod tests {
         assert!(parse_vec3("1,2").is_err());
         assert!(parse_vec3("1,2,x,3").is_err());
         assert!(parse_vec3("1,2,NaN").is_err());
+        assert_eq!(parse_share("0.25"), Ok(0.25));
+        assert!(parse_share("1.5").unwrap_err().contains("0 to 1"));
+        assert!(parse_share("NaN").is_err());
     }
 }

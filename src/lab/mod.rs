@@ -27,7 +27,7 @@ pub mod texel_scenes;
 mod texture;
 mod timing;
 
-pub use args::{ChartArgs, CommonArgs, Size, parse_size, parse_vec3};
+pub use args::{ChartArgs, CommonArgs, Size, parse_share, parse_size, parse_vec3};
 pub use billboards::{Billboard, add_billboards};
 pub use broadleaf_crown::broadleaf_crown;
 pub use capture::{Pixels, load_png};

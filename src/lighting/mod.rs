@@ -36,6 +36,11 @@ pub enum PlantLighting {
     Unlit,
 }
 
+/// A share of light that comes through from behind, in its range: what is below 0 or above 1 is taken for the nearest, and no number for 0.
+pub(crate) fn limited_transmission(asked: f32) -> f32 {
+    asked.clamp(0.0, 1.0).max(0.0)
+}
+
 /// Loads what shaders of all methods light by. Added by each method's plugin that needs it.
 pub(crate) struct LightingPlugin;
 

@@ -160,7 +160,7 @@ impl Shared {
                 color: self.color.clone(),
                 normal: self.normal.clone(),
                 settings,
-                // Until `follow_lights` says otherwise, in this very frame.
+                // Until `follow_scene` says otherwise, in this very frame.
                 lighting: settings.lighting.into(),
                 tone_mapped: false,
                 compressed: self.compressed,
@@ -253,7 +253,7 @@ pub(crate) fn follow_wind(
 
 /// Tells the materials which lighting the scene's lights call for, and whether its HDR cameras map tones: a camera that does speaks
 /// for all.
-pub(crate) fn follow_lights(
+pub(crate) fn follow_scene(
     library: Res<CrownLibrary>,
     mut materials: ResMut<Assets<SlicedCrownMaterial>>,
     lights: SceneLights,
@@ -286,8 +286,9 @@ pub(crate) fn follow_sun(
     let to_sun = brightest.map_or(Vec3::ZERO, |(_, place, _)| place.back().as_vec3());
     let all = library.shared.values();
     for (_, material) in all.flat_map(Shared::each_material) {
+        // A day goes by without a new upload in each frame: half a degree is not seen.
         if let Some(mut material) = materials.get_mut(material)
-            && material.crown.sun != to_sun.extend(0.0)
+            && material.crown.sun.truncate().distance(to_sun) > 0.01
         {
             material.crown.sun = to_sun.extend(0.0);
         }

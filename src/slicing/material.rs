@@ -213,7 +213,7 @@ impl Material for SlicedCrownMaterial {
             (crown.compressed, "CROWN_COMPRESSED"),
             (key.mesh_key.contains(light), "CROWN_LIGHT_VIEW"),
             (is_tone_mapped_later, "CROWN_TONE_MAPPED_LATER"),
-            // Bevy's full light asks for it.
+            // Bevy's full light and the simple one ask for it.
             (crown.transmits, "STANDARD_MATERIAL_DIFFUSE_TRANSMISSION"),
         ]);
         define(descriptor, defs);

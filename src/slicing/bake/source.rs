@@ -4,6 +4,7 @@ use bevy::math::{Affine2, Mat3, Mat4, Vec2, Vec3};
 
 use super::error::BakeError;
 use super::texture::CrownTexture;
+use crate::lighting::limited_transmission;
 
 /// Furthest that a vertex may lie from the origin along an axis, in metres.
 pub const MAX_COORDINATE: f32 = 1e5;
@@ -136,8 +137,7 @@ impl CrownMesh {
         for triangle in &self.triangles {
             let area = f64::from(triangle.area());
             let share = self.materials[triangle.material as usize].diffuse_transmission;
-            // What is no number is none.
-            through += area * f64::from(share.clamp(0.0, 1.0).max(0.0));
+            through += area * f64::from(limited_transmission(share));
             all += area;
         }
         (through / all) as f32

@@ -1,4 +1,4 @@
-//! How the leaves of a slice are lit for an eye above or below, or before the sun: it sees others of them than the eye that they were
+//! How the leaves of a slice are lit for an eye above or below, or with the sun behind it: it sees others of them than the eye that they were
 //! baked for.
 //! `shaders/seen.wgsl` has the same functions by the same names.
 

@@ -155,12 +155,6 @@ impl TexelSettings {
         (most / count).clamp(1, 1 << inner.ilog2())
     }
 
-    /// The share of light from behind, in its range.
-    pub(crate) fn diffuse_transmission(&self) -> f32 {
-        // What is no number is none.
-        self.diffuse_transmission.clamp(0.0, 1.0).max(0.0)
-    }
-
     /// How far above a place that is seen light falls on it, or solids would shade themselves in specks. So far it may be from the
     /// surface: `inside`, by slices of a volume e thick in whose layers `inner` ones are looked up. In shadow maps, merged layers
     /// stand out of what widens towards the light, by a share of d of [`shadows`](Self::shadows).

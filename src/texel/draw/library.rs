@@ -22,7 +22,7 @@ use super::material::{TexelMaterial, TexelsUniform};
 use super::skin::Skin;
 use super::source::DrawnVolume;
 use super::surface_mesh::TexelSurfaceError;
-use crate::lighting::{PlantLighting, SceneLights};
+use crate::lighting::{PlantLighting, SceneLights, limited_transmission};
 
 /// A volume of which so many slices are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -72,7 +72,7 @@ impl TexelKeys {
                 settings.reflectance.to_bits(),
                 settings.flexibility.to_bits(),
                 settings.inner_slices,
-                settings.diffuse_transmission().to_bits(),
+                limited_transmission(settings.diffuse_transmission).to_bits(),
             ],
         }
     }

@@ -18,7 +18,7 @@ use super::super::axis::SliceAxis;
 use super::super::choose::VolumeMeasure;
 use super::component::TexelSettings;
 use super::records::vertex_buffers;
-use crate::lighting::{PlantLighting, SceneLighting};
+use crate::lighting::{PlantLighting, SceneLighting, limited_transmission};
 use crate::pipeline::{define, embedded_shader, names};
 
 /// What the shaders have of a volume and a surface's settings.
@@ -41,7 +41,7 @@ impl TexelsUniform {
             wind: wind.extend(settings.flexibility),
             reflectance: settings.reflectance,
             inner_slices: settings.inner_slices(1, u32::MAX),
-            diffuse_transmission: settings.diffuse_transmission(),
+            diffuse_transmission: limited_transmission(settings.diffuse_transmission),
         }
     }
 }
@@ -179,7 +179,7 @@ impl Material for TexelMaterial {
             (is_main && !own.depth, "TEXEL_INNER"),
             (key.mesh_key.contains(sun), "TEXEL_DIRECTIONAL_LIGHT"),
             (four, "TEXEL_FOUR_SAMPLES"),
-            // Bevy's full light asks for it.
+            // Bevy's full light and the simple one ask for it.
             (own.transmits, "STANDARD_MATERIAL_DIFFUSE_TRANSMISSION"),
         ]);
         define(descriptor, defs.chain([axis]));

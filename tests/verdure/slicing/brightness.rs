@@ -38,7 +38,7 @@ fn as_much_shows_through_two_slicings_as_through_one_but_without_the_correction(
     let ways = [
         ("default", CROWN.clone(), UNLIT),
         ("m_s = 0.5", CROWN.clone(), paper),
-        ("m_s = 0", baked(0.0), paper),
+        ("m_s = 0", baked(0.0, 0.0), paper),
     ];
     let [default, corrected, plain] = ways.map(|(name, slicing, settings)| {
         let mut studio = Studio::default();

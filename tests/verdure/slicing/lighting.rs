@@ -6,10 +6,10 @@ use bevy::prelude::*;
 use bevy::render::render_resource::{
     Extent3d, TextureDimension, TextureFormat, TextureViewDescriptor, TextureViewDimension,
 };
-use bevy_verdure::lab::{Pixels, Studio, broadleaf_crown, mean_flip};
+use bevy_verdure::lab::{Pixels, Studio, mean_flip};
 use bevy_verdure::prelude::*;
 
-use super::{SIZE, TREE, UNLIT, covered, eye, mean, shot, studio, sun};
+use super::{CROWN, SIZE, TREE, UNLIT, baked, covered, eye, mean, shot, studio, sun};
 
 /// The crown over which `sun` stands, seen from beside.
 fn picture(studio: &mut Studio, crown: Entity, lighting: PlantLighting) -> Pixels {
@@ -163,15 +163,6 @@ fn an_environment_map_calls_for_full_light_while_it_is_there() {
 
 #[test]
 fn light_comes_through_the_leaves_of_crowns_as_of_their_meshes() {
-    const TRANSMISSION: f32 = 0.5;
-    let bake_with = |transmission| {
-        let crown = broadleaf_crown(&TREE, transmission).expect("its meshes can be baked");
-        let settings = BakeSettings {
-            samples: 2,
-            ..BakeSettings::default().with_pixels(64)
-        };
-        bake(&crown, &settings).expect("the settings are in range")
-    };
     let mut studio = Studio::default();
     // Low, so that an eye beside the crown sees its lit side or the other.
     studio.world().spawn((
@@ -197,17 +188,16 @@ fn light_comes_through_the_leaves_of_crowns_as_of_their_meshes() {
         }
         light
     };
+    let slicings = [(CROWN.clone(), 0.0), (baked(0.5, 0.5), 0.5)].map(|(slicing, transmission)| {
+        let mut slicings = studio.world().resource_mut::<Assets<Slicing>>();
+        (slicings.add(slicing), transmission)
+    });
     for lighting in [PlantLighting::Simple, PlantLighting::Full] {
-        let [solid, leafy] = [0.0, TRANSMISSION].map(|transmission| {
+        let [solid, leafy] = slicings.clone().map(|(slicing, transmission)| {
             let settings = CrownSettings {
                 lighting,
                 ..default()
             };
-            let slicing = bake_with(transmission);
-            let slicing = studio
-                .world()
-                .resource_mut::<Assets<Slicing>>()
-                .add(slicing);
             let crown = studio.world().spawn((SlicedCrown(slicing), settings)).id();
             let crown = light(&mut studio, vec![crown]);
             let world = studio.world();

@@ -40,11 +40,12 @@ static TREE: LazyLock<BroadleafMeshes> = LazyLock::new(|| {
 });
 
 /// Its crown, baked with 64² pixels a slice.
-static CROWN: LazyLock<Slicing> = LazyLock::new(|| baked(0.5));
+static CROWN: LazyLock<Slicing> = LazyLock::new(|| baked(0.5, 0.0));
 
-/// Its crown with a correction m_s.
-fn baked(correction: f32) -> Slicing {
-    let crown = broadleaf_crown(&TREE, 0.0).expect("a broadleaf's meshes can be baked");
+/// Its crown with a correction m_s, and leaves through which such a share of light comes.
+fn baked(correction: f32, diffuse_transmission: f32) -> Slicing {
+    let crown =
+        broadleaf_crown(&TREE, diffuse_transmission).expect("a broadleaf's meshes can be baked");
     let settings = BakeSettings {
         samples: 2,
         correction,
