@@ -32,8 +32,8 @@
 //!   correction f_c for the whole crown.
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
 //! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
-//! * For eyes above and below, leaves of slices are turned to the eye ([`blend::leaning`]), and with the sun behind the eye shadows are received
-//!   nearer to the sun ([`blend::hot_spot`]): such eyes see others of a crown's leaves than level ones beside it.
+//! * For eyes above and below, leaves of slices are turned to the eye ([`blend::leaning`]); for them, and with the sun behind the eye, shadows
+//!   are received nearer to the sun ([`blend::towards_sun`]): such eyes see others of a crown's leaves than level ones beside it.
 //! * In HDR blended slices count for more, since tone mapping comes after blending.
 //! * Light comes through leaves from behind, as their material says.
 //! * Up close the discrepancy angle is taken part by part ([`DiscrepancyAngle`]), which §4 proposes.

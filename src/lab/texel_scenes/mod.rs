@@ -204,7 +204,7 @@ impl TexelScene {
                 ..covered(limb::limb(), 0.07, Transform::IDENTITY)
             }],
             Self::Meadow => vec![Covered {
-                color: Some(Color::srgb(0.10, 0.13, 0.04)),
+                color: Some(Color::srgb(0.13, 0.19, 0.05)),
                 ..covered(surfaces::hill(12, 12.0), 0.35, Transform::IDENTITY)
             }],
         }

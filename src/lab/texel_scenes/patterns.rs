@@ -241,11 +241,11 @@ fn bush() -> Shape {
 fn grass() -> Shape {
     let mut shape = Shape::default();
     let mut dice = Dice::new(11);
-    for _ in 0..1400 {
+    for _ in 0..1800 {
         let root = Vec3::new(dice.roll(), dice.roll(), 0.0);
         let height = dice.between(0.12, 0.33);
-        let lean = Vec2::from_angle(dice.angle()) * dice.between(0.02, 0.16);
-        let across = Vec2::from_angle(dice.angle()).extend(0.0) * dice.between(0.004, 0.008);
+        let lean = Vec2::from_angle(dice.angle()) * dice.between(0.04, 0.26);
+        let across = Vec2::from_angle(dice.angle()).extend(0.0) * dice.between(0.005, 0.009);
         let green = Vec3::new(dice.between(0.07, 0.22), dice.between(0.24, 0.34), 0.03);
         let point = |t: f32| root + (lean * t * t).extend(height * t);
         let first = shape.positions.len() as u32;

@@ -18,7 +18,9 @@ pub use parts::{
     PART_SLOTS, PARTS, deviation, part_direction, part_slots, part_turn, part_weight,
     turned_weight, widest,
 };
-pub use seen::{HOT_SPOT, LEAN, LEAN_DOWN, hot_spot, leaning, turned};
+pub use seen::{
+    EVEN_HEIGHT, HEIGHTS, HOT_SPOT, LEAN, LEAN_DOWN, TOP_LIGHT, leaning, towards_sun, turned,
+};
 pub use weights::{
     ALONE, SLOTS, SUREST, Slot, corrected, covered, nearest, primary_opacity, slanted, slots,
 };

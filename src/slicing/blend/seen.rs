@@ -16,9 +16,18 @@ pub const LEAN: f32 = 1.5;
 /// less than all of it.
 pub const LEAN_DOWN: f32 = 0.5;
 
-/// How far before the leaves of a slice light is met, that comes from straight behind the eye: this share of the distance between slices,
-/// and no more than that of the slicing box.
+/// How far nearer to the sun than its slice a leaf is, that an eye sees which looks along the light: this share of the distance between
+/// slices, and no more than that of the slicing box.
 pub const HOT_SPOT: [f32; 2] = [0.65, 0.13];
+
+/// By how many of those an eye that rises from level to straight above would find the leaves of upright slices nearer to the sun.
+pub const TOP_LIGHT: f32 = 2.1;
+
+/// Heights of an eye, as sines of its elevation, between which that goes on: above, the vertical slicing joins in.
+pub const HEIGHTS: [f32; 2] = [-0.2, 0.5];
+
+/// The height at which upright slices are as light as their leaves. From lower eyes they are darker.
+pub const EVEN_HEIGHT: f32 = 0.19;
 
 /// Where the leaves of a slice look in the mean, that look to its `front` (unit) for an eye there, for an eye in a `direction` (unit):
 /// from upright slices up or down, from vertical ones aside to it, from those over a sphere as they were baked.
@@ -43,11 +52,24 @@ pub fn turned(normal: Vec3, before: Vec3, after: Vec3) -> Vec3 {
         + after * (2.0 * before.dot(normal))
 }
 
-/// From the leaves of a slice to those of them, in metres, of which an eye in a direction `to_eye` sees what the light of a sun in a direction
-/// `to_sun` (both unit) reaches: slices are so far apart (`spacing`), and their box is so `deep`. A slice holds the leaves of its layer
-/// half-way. An eye that looks along the light sees those that the light meets first, the hot spot of canopies (A. Kuusk, *The Hot
-/// Spot Effect of a Uniform Vegetative Cover*, 1985); it goes as the square of the cosine between both.
-pub fn hot_spot(spacing: f32, deep: f32, to_eye: Vec3, to_sun: Vec3) -> Vec3 {
-    let near = to_eye.dot(to_sun).max(0.0);
-    (HOT_SPOT[0] * spacing).min(HOT_SPOT[1] * deep) * near * near * to_sun
+/// How much nearer to the sun than its slice a leaf is in the mean, in metres, that is seen by an eye in a `direction` (unit, in the
+/// crown's space): for slices with a `front` (unit), so far apart (`spacing`), in a box so `deep`; `near` is the cosine between eye and sun.
+///
+/// Slices hold the leaves of their layers half-way. An eye that looks along the light sees those that the light meets first, the hot
+/// spot of canopies (A. Kuusk, *The Hot Spot Effect of a Uniform Vegetative Cover*, 1985); it goes as the square of the cosine. And of
+/// upright layers an eye above sees the sunlit leaves on top, but of their slices the same leaves as a level eye. Both are fitted to
+/// the light of meshes, for eyes from 30 degrees below to straight above, all round suns 10, 47 and 90 degrees high.
+pub fn towards_sun(
+    shape: &SlicingShape,
+    front: Vec3,
+    direction: Vec3,
+    near: f32,
+    spacing: f32,
+    deep: f32,
+) -> f32 {
+    let mut shift = near.max(0.0) * near.max(0.0);
+    if shape.is_upright(front) {
+        shift += TOP_LIGHT * (direction.y.clamp(HEIGHTS[0], HEIGHTS[1]) - EVEN_HEIGHT);
+    }
+    (HOT_SPOT[0] * spacing).min(HOT_SPOT[1] * deep) * shift
 }

@@ -234,16 +234,27 @@ fn leaves_look_up_to_an_eye_above_and_down_to_one_below() {
 }
 
 #[test]
-fn the_hot_spot_is_where_the_eye_looks_along_the_light() {
-    let sun = Vec3::new(0.0, 0.6, 0.8);
+fn leaves_are_nearer_to_the_sun_where_the_eye_looks_along_the_light_or_stands_higher() {
+    let shape = shape(Orientations::Circle(6), true);
+    let shift = |front, height: f32, near, spacing| {
+        let direction = Vec3::new((1.0 - height * height).sqrt(), height, 0.0);
+        towards_sun(&shape, front, direction, near, spacing, 1.0)
+    };
     // The nearer of both bounds, here by the distance between slices.
     let most = HOT_SPOT[0] * 0.1;
-    assert!(hot_spot(0.1, 1.0, sun, sun).distance(most * sun) < 1e-6);
-    assert!(hot_spot(0.1, 1.0, Vec3::Z, sun).distance(0.64 * most * sun) < 1e-6);
-    assert!(hot_spot(1.0, 1.0, sun, sun).distance(HOT_SPOT[1] * sun) < 1e-6);
-    // None where the light comes from before the eye, or there is none.
-    assert_eq!(hot_spot(0.1, 1.0, Vec3::NEG_Y, sun), Vec3::ZERO);
-    assert_eq!(hot_spot(0.1, 1.0, sun, Vec3::ZERO), Vec3::ZERO);
+    for (near, share) in [(1.0, 1.0), (0.8, 0.64), (0.0, 0.0), (-1.0, 0.0)] {
+        // Of vertical slices the hot spot alone, which is none where the light comes from before the eye; of upright ones as well at
+        // the height at which they are as light as their leaves.
+        assert!((shift(Vec3::Y, 0.9, near, 0.1) - share * most).abs() < 1e-6);
+        assert!((shift(Vec3::X, EVEN_HEIGHT, near, 0.1) - share * most).abs() < 1e-6);
+    }
+    assert!((shift(Vec3::Y, 1.0, 1.0, 1.0) - HOT_SPOT[1]).abs() < 1e-6);
+    // Further with height, and no further than to where they are no longer drawn alone.
+    let heights = [-0.9, HEIGHTS[0], 0.0, EVEN_HEIGHT, HEIGHTS[1], 0.9];
+    let shifts = heights.map(|height| shift(Vec3::X, height, 0.0, 0.1) / most);
+    assert!((shifts[2] + TOP_LIGHT * EVEN_HEIGHT).abs() < 1e-6);
+    assert!(shifts[1..5].is_sorted_by(|a, b| a < b));
+    assert!((shifts[0], shifts[4]) == (shifts[1], shifts[5]));
 }
 
 #[test]

@@ -10,7 +10,7 @@
 #import bevy_verdure::slicing::blend::FOCAL
 #import bevy_verdure::slicing::drawn::{cast_slice, drawn_slice}
 #import bevy_verdure::slicing::cast::facing
-#import bevy_verdure::slicing::seen::{hot_spot, leaning, turned}
+#import bevy_verdure::slicing::seen::{leaning, towards_sun, turned}
 #import bevy_verdure::slicing::parts::{deviation, part_direction, part_turn}
 #import bevy_verdure::slicing::lots::{cells, pcg}
 #import bevy_verdure::wind::sway
@@ -252,7 +252,8 @@ fn place_corner(in: Corner) -> Varying {
 #ifndef PREPASS_PIPELINE
     let to_eye = normalize(world_from_local(in.instance_index) * direction);
     let metres = metre(in.instance_index);
-    out.world_position += hot_spot(spacing * metres, size.z * metres, to_eye, crown.sun.xyz);
+    let near = dot(to_eye, crown.sun.xyz);
+    out.world_position += towards_sun(front, direction, near, spacing * metres, size.z * metres) * crown.sun.xyz;
 #else
     // Moved likewise in the frame before, so that motion vectors leave wind out.
     out.local_position = local + local_from_world(in.instance_index) * moved;

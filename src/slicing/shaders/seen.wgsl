@@ -9,6 +9,9 @@ const LEAN: f32 = 1.5;
 const LEAN_DOWN: f32 = 0.5;
 const STEEPEST: f32 = 1.5707964;
 const HOT_SPOT: vec2<f32> = vec2(0.65, 0.13);
+const TOP_LIGHT: f32 = 2.1;
+const HEIGHTS: vec2<f32> = vec2(-0.2, 0.5);
+const EVEN_HEIGHT: f32 = 0.19;
 
 fn leaning(front: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
     if crown.sphere != 0u {
@@ -29,7 +32,10 @@ fn turned(normal: vec3<f32>, before: vec3<f32>, after: vec3<f32>) -> vec3<f32> {
     return normal - half * (dot(half, normal) / (1.0 + dot(before, after))) + after * (2.0 * dot(before, normal));
 }
 
-fn hot_spot(spacing: f32, deep: f32, to_eye: vec3<f32>, to_sun: vec3<f32>) -> vec3<f32> {
-    let near = max(dot(to_eye, to_sun), 0.0);
-    return min(HOT_SPOT.x * spacing, HOT_SPOT.y * deep) * near * near * to_sun;
+fn towards_sun(front: vec3<f32>, direction: vec3<f32>, near: f32, spacing: f32, deep: f32) -> f32 {
+    var shift = max(near, 0.0) * max(near, 0.0);
+    if is_upright(front) {
+        shift += TOP_LIGHT * (clamp(direction.y, HEIGHTS.x, HEIGHTS.y) - EVEN_HEIGHT);
+    }
+    return min(HOT_SPOT.x * spacing, HOT_SPOT.y * deep) * shift;
 }

@@ -4,7 +4,7 @@ use bevy::math::{Vec3, Vec3Swizzles};
 use bevy_verdure::plants::Dice;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::blend::{
-    deviation, hot_spot, leaning, part_direction, part_slots, part_turn, slanted, slots, turned,
+    deviation, leaning, part_direction, part_slots, part_turn, slanted, slots, towards_sun, turned,
     turned_weight, widest,
 };
 use bevy_verdure::slicing::{Orientation, SlicingShape};
@@ -54,7 +54,7 @@ fn work(i: u32) {
     let front = crown.orientations[0].direction;
     results[i][23] = slanted(0.7, front, eye);
     put(i, 24u, turned(vector(i, 6u), front, leaning(front, eye)));
-    results[i][27] = length(hot_spot(0.4, 1.2, eye, vector(i, 6u)));
+    results[i][27] = towards_sun(front, eye, dot(eye, vector(i, 6u)), 0.4, 1.2);
 }
 ";
 
@@ -159,8 +159,8 @@ fn shaders_blend_slicings_as_rust_does() {
             found_normal.distance(normal) < 4e-3,
             "{eye} {ray}: {normal}"
         );
-        let near = hot_spot(0.4, 1.2, *eye, *ray).length();
-        assert!((found[27] - near).abs() < 1e-5, "{eye}: {near}");
+        let shift = towards_sun(shape, front, *eye, cosine, 0.4, 1.2);
+        assert!((found[27] - shift).abs() < 1e-5, "{eye}: {shift}");
         let expected = slots(shape, *eye, SliceOrder::Steady);
         let orientations = |from: usize, step: usize, n: usize| -> Vec<u32> {
             (0..n).map(|k| found[from + step * k] as u32).collect()
