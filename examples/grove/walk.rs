@@ -22,7 +22,7 @@ impl Walk {
     pub fn new(trees: u32, frame: usize, stride: usize, stands: bool) -> Self {
         Self {
             frame: frame % FRAMES,
-            stride,
+            stride: stride % FRAMES,
             grove: radius(trees),
             stands,
         }

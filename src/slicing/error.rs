@@ -61,7 +61,7 @@ pub enum SlicingError {
     /// The axes of an orientation are not at right angles, or its box has no room.
     #[error(
         "orientation {index}: direction, right and up must be unit vectors at right angles, and each coordinate of low \
-         less than that of high: bake it anew"
+         less than that of high, neither further from the centroid than 4 radii: bake it anew"
     )]
     Orientation {
         /// Which orientation, counted from 0.

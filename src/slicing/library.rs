@@ -257,9 +257,12 @@ pub(crate) fn follow_scene(
     library: Res<CrownLibrary>,
     mut materials: ResMut<Assets<SlicedCrownMaterial>>,
     lights: SceneLights,
-    cameras: Query<&Tonemapping, With<Hdr>>,
+    cameras: Query<(&Camera, &Tonemapping), With<Hdr>>,
 ) {
-    let tone_mapped = cameras.iter().any(|mapping| *mapping != Tonemapping::None);
+    let is_mapped = |(camera, mapping): (&Camera, &Tonemapping)| {
+        camera.is_active && *mapping != Tonemapping::None
+    };
+    let tone_mapped = cameras.iter().any(is_mapped);
     let all = library.shared.values();
     for (settings, material) in all.flat_map(Shared::each_material) {
         let lighting = lights.lighting(settings.lighting);

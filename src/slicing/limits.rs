@@ -8,6 +8,8 @@ pub const MAX_SLICES: u32 = 64;
 pub const MAX_LEVELS: usize = 3;
 /// Most pixels along a slice's side.
 pub const MAX_PIXELS: u32 = 1024;
+/// Most samples along a slice's side: half a gigabyte would go to each thread for twice as many.
+pub const MAX_SAMPLES: u32 = 4096;
 /// Most slices in all: what every device allows as layers of a texture.
 pub const MAX_LAYERS: usize = 256;
 /// Most pixels of all slices together.

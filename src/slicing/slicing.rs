@@ -155,7 +155,9 @@ impl SlicingShape {
                 + o.up.dot(o.direction).abs()
                 + o.direction.dot(o.right).abs();
             let has_room = (o.high - o.low).min_element() > 0.0;
-            let finite = o.low.is_finite() && o.high.is_finite();
+            // Of slices of 4 pixels, half is margin; a box that reaches further is of another crown.
+            let furthest = o.low.abs().max(o.high.abs()).max_element();
+            let finite = o.low.is_finite() && o.high.is_finite() && furthest <= 4.0 * self.radius;
             let axes = unit(o.right) && unit(o.up) && unit(o.direction) && square < 3e-3;
             if !(axes && has_room && finite) {
                 return Err(SlicingError::Orientation { index });

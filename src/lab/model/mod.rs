@@ -155,6 +155,7 @@ impl<'a> Model<'a> {
                     transform.offset().into(),
                 )
             }),
+            opaque: material.alpha_mode() == AlphaMode::Opaque,
             cutoff: match material.alpha_mode() {
                 AlphaMode::Mask => material.alpha_cutoff().unwrap_or(0.5),
                 _ => 0.0,

@@ -1,7 +1,6 @@
 //! The textures of a glTF model.
 
 use gltf::image::Source;
-use gltf::material::AlphaMode;
 
 use super::{Model, beside};
 use crate::slicing::CrownTexture;
@@ -34,12 +33,7 @@ impl Model<'_> {
             })?
             .into_rgba8();
         let size = [image.width(), image.height()];
-        let mut pixels: Vec<[u8; 4]> = image.pixels().map(|pixel| pixel.0).collect();
-        if material.alpha_mode() == AlphaMode::Opaque {
-            for pixel in &mut pixels {
-                pixel[3] = 255;
-            }
-        }
+        let pixels = image.pixels().map(|pixel| pixel.0).collect();
         CrownTexture::new(size, pixels)
             .map(Some)
             .map_err(|error| error.to_string())

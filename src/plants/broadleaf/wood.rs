@@ -4,7 +4,8 @@ use core::f32::consts::TAU;
 
 use bevy::asset::RenderAssetUsages;
 use bevy::math::Vec3;
-use bevy::mesh::{Mesh, PrimitiveTopology};
+use bevy::mesh::{Indices, Mesh, PrimitiveTopology};
+use bevy::platform::collections::HashMap;
 
 use super::Broadleaf;
 use crate::plants::dice::Dice;
@@ -34,14 +35,30 @@ impl Triangles {
         self.positions.len() as u32 / 3
     }
 
+    /// Vertices that triangles share are there once.
     pub fn mesh(self) -> Mesh {
+        let mut known = HashMap::new();
+        let (mut positions, mut normals, mut colors) = (Vec::new(), Vec::new(), Vec::new());
+        let vertices = self.positions.iter().zip(&self.normals).zip(&self.colors);
+        let indices = vertices.map(|((position, normal), color)| {
+            let bits = |v: &Vec3| v.to_array().map(f32::to_bits);
+            let vertex = (bits(position), bits(normal), color.map(f32::to_bits));
+            *known.entry(vertex).or_insert_with(|| {
+                positions.push(*position);
+                normals.push(*normal);
+                colors.push(*color);
+                positions.len() as u32 - 1
+            })
+        });
+        let indices: Vec<u32> = indices.collect();
         Mesh::new(
             PrimitiveTopology::TriangleList,
             RenderAssetUsages::default(),
         )
-        .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, self.positions)
-        .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, self.normals)
-        .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, self.colors)
+        .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
+        .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, normals)
+        .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, colors)
+        .with_inserted_indices(Indices::U32(indices))
     }
 }
 

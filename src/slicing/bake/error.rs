@@ -35,6 +35,30 @@ pub enum BakeError {
         /// Which triangle.
         triangle: usize,
     },
+    /// A number of a material is not finite.
+    #[error(
+        "material {material}, counted from 0: its colour, cutoff or texture transform is not finite: correct it"
+    )]
+    Material {
+        /// Which material.
+        material: usize,
+    },
+    /// A mesh cannot be baked.
+    #[error("mesh `{mesh}`: {error}")]
+    Mesh {
+        /// The mesh's name.
+        mesh: String,
+        /// Why.
+        error: Box<Self>,
+    },
+    /// Indices make no triangles.
+    #[error("mesh `{mesh}` has {count} indices, no multiple of 3: give it three for each triangle")]
+    IndexCount {
+        /// The mesh's name.
+        mesh: String,
+        /// How many it has, or vertices where it has none.
+        count: usize,
+    },
     /// A triangle names a material that is not there.
     #[error(
         "triangle {triangle}: material {material} is not one of the {count} there are, counted from 0: add it before \
@@ -130,4 +154,14 @@ pub enum BakeError {
         /// Pixels along each side of a slice.
         pixels: u32,
     },
+}
+
+impl BakeError {
+    /// The same of a mesh by its name.
+    pub(super) fn of_mesh(self, mesh: &str) -> Self {
+        Self::Mesh {
+            mesh: mesh.into(),
+            error: Box::new(self),
+        }
+    }
 }

@@ -4,16 +4,16 @@ use bevy::asset::Assets;
 use bevy::color::{ColorToComponents, LinearRgba};
 use bevy::image::Image;
 use bevy::math::{Mat4, Vec2, Vec3};
-use bevy::mesh::{Mesh, PrimitiveTopology, VertexAttributeValues};
+use bevy::mesh::{Mesh, PrimitiveTopology, UvChannel, VertexAttributeValues};
 use bevy::pbr::StandardMaterial;
 use bevy::prelude::AlphaMode;
 
 use super::error::BakeError;
-use super::source::{CrownMaterial, CrownMesh, CrownVertex};
+use super::source::{CrownMaterial, CrownMesh, CrownTriangle, CrownVertex};
 use super::texture::CrownTexture;
 
 impl CrownMaterial {
-    /// What a crown takes of a standard material: base colour, its texture and where that lies, its alpha mask, and its diffuse
+    /// What a crown takes of a standard material: base colour, its texture and where that lies, its alpha mode, and its diffuse
     /// transmission. `mesh` names it in errors.
     ///
     /// # Errors
@@ -29,24 +29,20 @@ impl CrownMaterial {
                 let image = images
                     .get(handle)
                     .ok_or_else(|| BakeError::MissingTexture { mesh: mesh.into() })?;
-                Some(CrownTexture::from_image(image)?)
+                Some(CrownTexture::from_image(image).map_err(|error| error.of_mesh(mesh))?)
             }
         };
-        let mut color = LinearRgba::from(material.base_color).to_f32_array();
-        let mut cutoff = 0.0;
-        match material.alpha_mode {
-            AlphaMode::Opaque => color[3] = 1.0,
-            // A mask at 0 lets everything through, as no mask does.
-            AlphaMode::Mask(at) => cutoff = at,
-            _ => {}
-        }
-        // Alpha of a texture means nothing in an opaque material.
-        let opaque = material.alpha_mode == AlphaMode::Opaque;
         Ok(Self {
-            color,
-            texture: texture.map(|texture| if opaque { texture.opaque() } else { texture }),
+            color: LinearRgba::from(material.base_color).to_f32_array(),
+            texture,
             uv_transform: material.uv_transform,
-            cutoff,
+            uv_channel: material.base_color_channel.clone(),
+            opaque: material.alpha_mode == AlphaMode::Opaque,
+            cutoff: match material.alpha_mode {
+                // A mask at 0 lets everything through, as no mask does.
+                AlphaMode::Mask(at) => at,
+                _ => 0.0,
+            },
             diffuse_transmission: material.diffuse_transmission,
         })
     }
@@ -60,7 +56,7 @@ impl CrownMesh {
     ///
     /// # Errors
     /// When the mesh is not one of triangles, is not kept in the main world, lacks positions or needed texture
-    /// coordinates, or its indices point behind its vertices.
+    /// coordinates, its indices make no triangles or point behind its vertices, or a number is not finite or too far from the origin.
     pub fn add_mesh(
         &mut self,
         name: &str,
@@ -91,7 +87,12 @@ impl CrownMesh {
             .and_then(VertexAttributeValues::as_float3)
             .ok_or_else(|| missing("positions", fix))?;
         let normals = attribute(Mesh::ATTRIBUTE_NORMAL).and_then(VertexAttributeValues::as_float3);
-        let uvs = match attribute(Mesh::ATTRIBUTE_UV_0) {
+        let material_of = self.materials.get(material as usize);
+        let channel = match material_of.map(|material| &material.uv_channel) {
+            Some(UvChannel::Uv1) => Mesh::ATTRIBUTE_UV_1,
+            _ => Mesh::ATTRIBUTE_UV_0,
+        };
+        let uvs = match attribute(channel) {
             Some(VertexAttributeValues::Float32x2(uvs)) => Some(uvs),
             _ => None,
         };
@@ -99,13 +100,7 @@ impl CrownMesh {
             Some(VertexAttributeValues::Float32x4(colors)) => Some(colors),
             _ => None,
         };
-        let has_texture = |material: &CrownMaterial| material.texture.is_some();
-        if uvs.is_none()
-            && self
-                .materials
-                .get(material as usize)
-                .is_some_and(has_texture)
-        {
+        if uvs.is_none() && material_of.is_some_and(|material| material.texture.is_some()) {
             let fix = "give it texture coordinates, or a material without a texture";
             return Err(missing("texture coordinates", fix));
         }
@@ -113,6 +108,12 @@ impl CrownMesh {
             Ok(Some(indices)) => indices.iter().collect(),
             _ => (0..positions.len()).collect(),
         };
+        if !indices.len().is_multiple_of(3) {
+            return Err(BakeError::IndexCount {
+                mesh: name.into(),
+                count: indices.len(),
+            });
+        }
         let mut part = Self::default();
         for (index, corners) in indices.chunks_exact(3).enumerate() {
             if let Some(vertex) = corners.iter().find(|corner| **corner >= positions.len()) {
@@ -143,11 +144,17 @@ impl CrownMesh {
             });
             part.push(vertices, 0);
         }
-        let first = self.triangles.len();
-        self.append(&part, transform);
-        for triangle in &mut self.triangles[first..] {
-            triangle.material = material;
-        }
+        let mut moved = Self::default();
+        moved.append(&part, transform);
+        moved
+            .check_vertices()
+            .map_err(|error| error.of_mesh(name))?;
+        let triangles = moved.triangles.into_iter();
+        self.triangles
+            .extend(triangles.map(|triangle| CrownTriangle {
+                material,
+                ..triangle
+            }));
         Ok(())
     }
 }

@@ -3,11 +3,12 @@
 //! 1. The crown's triangles are gathered (`source`, `from_mesh`) and parted from the solid ones (`separate`).
 //! 2. The light that leaves hold back is found for each (`occlusion`).
 //! 3. Every orientation gets its box and axes ([`Orientation`]); every slice is a job of its own, taken by the next
-//!    free thread: the triangles nearest to it are drawn by parallel projection with many samples a pixel (`raster`).
+//!    free thread: the triangles nearest to it are drawn by parallel projection with many samples a pixel (`raster`, `alpha`).
 //! 4. Samples become pixels, and colours spread under transparent ones (`resolve`).
 //!
 //! No job knows of another, and none depends on the number of threads: the same input bakes to the same bytes.
 
+mod alpha;
 pub(crate) mod color;
 mod error;
 mod from_mesh;

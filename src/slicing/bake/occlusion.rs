@@ -22,8 +22,9 @@ struct Grid {
 }
 
 impl Grid {
-    fn index(&self, at: Vec3) -> Option<usize> {
-        let cell = ((at - self.low) / self.cell).floor();
+    /// The cell at a place from the grid's low corner, in cells.
+    fn index(&self, place: Vec3) -> Option<usize> {
+        let cell = place.floor();
         let mut index = 0;
         for (x, size) in cell.to_array().into_iter().zip(self.size).rev() {
             if !(x >= 0.0 && x < size as f32) {
@@ -32,6 +33,11 @@ impl Grid {
             index = index * size + x as usize;
         }
         Some(index)
+    }
+
+    /// A position in cells from the grid's low corner. Steps of a cell move it however far from the origin the crown is.
+    fn place(&self, at: Vec3) -> Vec3 {
+        (at - self.low) / self.cell
     }
 
     fn new(mesh: &CrownMesh) -> Option<Self> {
@@ -49,7 +55,7 @@ impl Grid {
             extinction: vec![0.0; size.iter().product()],
         };
         for triangle in &mesh.triangles {
-            if let Some(index) = grid.index(triangle.centroid()) {
+            if let Some(index) = grid.index(grid.place(triangle.centroid())) {
                 grid.extinction[index] += 0.5 * triangle.area() / (cell * cell * cell);
             }
         }
@@ -63,10 +69,10 @@ impl Grid {
             .map(|direction| {
                 let mut depth = 0.0;
                 // A cell on the way at first, so that what hangs beside a leaf does not count as above it.
-                let mut place = at + *direction * self.cell;
+                let mut place = self.place(at) + *direction;
                 while let Some(index) = self.index(place) {
                     depth += self.extinction[index] * self.cell;
-                    place += *direction * self.cell;
+                    place += *direction;
                 }
                 (-depth).exp()
             })

@@ -2,6 +2,7 @@
 
 use bevy::math::{Vec2, Vec3};
 
+use super::alpha::LEAST_ALPHA;
 use super::source::CrownMesh;
 use crate::slicing::orientation::Orientation;
 
@@ -122,7 +123,7 @@ pub(super) fn rasterize(
             continue;
         }
         let material = &mesh.materials[triangle.material as usize];
-        let is_masked = material.texture.is_some() && material.cutoff > 0.0;
+        let may_have_holes = material.may_have_holes(triangle);
         let [columns, rows] = face.range(projection.side);
         for y in rows {
             for x in face.span(y, &columns) {
@@ -137,12 +138,9 @@ pub(super) fn rasterize(
                 if !is_nearest || (is_large && o.slice_at(depth, count) != slice) {
                     continue;
                 }
-                if is_masked {
-                    let [a, b, c] = triangle.vertices.map(|vertex| vertex.uv);
-                    let uv = a * weights.x + b * weights.y + c * weights.z;
-                    if material.sample(uv)[3] * material.color[3] < material.cutoff {
-                        continue;
-                    }
+                // What is not there hides nothing.
+                if may_have_holes && material.alpha(triangle, weights) < LEAST_ALPHA {
+                    continue;
                 }
                 depths[at] = depth;
                 seen[at] = index as u32;

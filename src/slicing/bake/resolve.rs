@@ -85,21 +85,14 @@ fn look(
 ) -> Look {
     let material = &mesh.materials[triangle.material as usize];
     let [a, b, c] = triangle.vertices;
-    let mix = |channel: usize| {
-        a.color[channel] * weights.x + b.color[channel] * weights.y + c.color[channel] * weights.z
-    };
-    let texture = material.sample(a.uv * weights.x + b.uv * weights.y + c.uv * weights.z);
-    let color: [f32; 4] = core::array::from_fn(|i| mix(i) * material.color[i] * texture[i]);
+    let vertex = triangle.color(weights);
+    let texture = material.sample(triangle.uv(weights));
+    let color: [f32; 3] = core::array::from_fn(|i| vertex[i] * material.color[i] * texture[i]);
     let normal = a.normal * weights.x + b.normal * weights.y + c.normal * weights.z;
     let normal = normal.normalize_or(direction);
     Look {
-        color: Vec3::new(color[0], color[1], color[2]).clamp(Vec3::ZERO, Vec3::ONE),
-        // What passed an alpha mask is opaque.
-        alpha: if material.cutoff > 0.0 {
-            1.0
-        } else {
-            color[3].clamp(0.0, 1.0)
-        },
+        color: Vec3::from(color).clamp(Vec3::ZERO, Vec3::ONE),
+        alpha: material.alpha(triangle, weights),
         // Both sides are seen; each is lit from where it is seen.
         normal: if normal.dot(direction) < 0.0 {
             -normal

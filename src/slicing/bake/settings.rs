@@ -4,7 +4,7 @@ use bevy::math::Vec3;
 
 use super::error::BakeError;
 use crate::slicing::limits::{
-    MAX_LAYERS, MAX_LEVELS, MAX_ORIENTATIONS, MAX_PIXELS, MAX_PIXELS_TOTAL, MAX_SLICES,
+    MAX_LAYERS, MAX_LEVELS, MAX_ORIENTATIONS, MAX_PIXELS, MAX_PIXELS_TOTAL, MAX_SAMPLES, MAX_SLICES,
 };
 use crate::slicing::orientation::Orientations;
 
@@ -23,7 +23,7 @@ pub struct BakeSettings {
     pub switches: Vec<f32>,
     /// Pixels along each side of a slice: a power of two, 4 to 1024.
     pub pixels: u32,
-    /// Samples along each side of a pixel, 1 to 8.
+    /// Samples along each side of a pixel, 1 to 8, and 4096 at most along that of a slice: each thread keeps eight bytes a sample.
     pub samples: u32,
     /// m_s of §2.3, 0 to 4: how much more opaque blended slicings are drawn in the paper's order, for their brightness.
     pub correction: f32,
@@ -126,6 +126,10 @@ impl BakeSettings {
         }
         if !(1..=8).contains(&self.samples) {
             return refuse("samples", self.samples.to_string(), "use 1 to 8");
+        }
+        if self.pixels * self.samples > MAX_SAMPLES {
+            let fix = "let pixels times samples be 4096 at most";
+            return refuse("samples", self.samples.to_string(), fix);
         }
         if !(0.0..=4.0).contains(&self.correction) {
             return refuse(

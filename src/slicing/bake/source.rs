@@ -1,6 +1,7 @@
 //! What is baked: triangles in the plant's local space, with all that tells their colour.
 
 use bevy::math::{Affine2, Mat3, Mat4, Vec2, Vec3};
+use bevy::mesh::UvChannel;
 
 use super::error::BakeError;
 use super::texture::CrownTexture;
@@ -18,7 +19,11 @@ pub struct CrownMaterial {
     pub texture: Option<CrownTexture>,
     /// What vertices' texture coordinates go through before the texture is read.
     pub uv_transform: Affine2,
-    /// Where alpha is less than this there is a hole (an alpha mask); 0 for none.
+    /// Which of a mesh's texture coordinates [`CrownMesh::add_mesh`] takes.
+    pub uv_channel: UvChannel,
+    /// Whether alpha means nothing, of colour, texture and vertices.
+    pub opaque: bool,
+    /// Where alpha is less than this there is a hole (an alpha mask); 0 for none, for what is blended.
     pub cutoff: f32,
     /// Share of the light that comes through from behind, 0 to 1, as of Bevy's `StandardMaterial`: 0 is solid, 0.5 looks alike
     /// from both sides. What is below or above is taken for the nearest, and no number for 0.
@@ -31,6 +36,8 @@ impl Default for CrownMaterial {
             color: [1.0; 4],
             texture: None,
             uv_transform: Affine2::IDENTITY,
+            uv_channel: UvChannel::default(),
+            opaque: false,
             cutoff: 0.0,
             diffuse_transmission: 0.0,
         }
@@ -44,6 +51,11 @@ impl CrownMaterial {
             Some(texture) => texture.sample(self.uv_transform.transform_point2(uv)),
             None => [1.0; 4],
         }
+    }
+
+    fn is_finite(&self) -> bool {
+        let is_finite = |color: &[f32; 4]| color.iter().all(|x| x.is_finite());
+        is_finite(&self.color) && self.uv_transform.is_finite() && self.cutoff.is_finite()
     }
 }
 
@@ -82,6 +94,18 @@ impl CrownTriangle {
         0.5 * (b - a).cross(c - a).length()
     }
 
+    /// Texture coordinates at a place of barycentric coordinates.
+    pub(super) fn uv(&self, weights: Vec3) -> Vec2 {
+        let [a, b, c] = self.vertices.map(|vertex| vertex.uv);
+        a * weights.x + b * weights.y + c * weights.z
+    }
+
+    /// Linear colour with alpha of its vertices at a place of barycentric coordinates.
+    pub(super) fn color(&self, weights: Vec3) -> [f32; 4] {
+        let [a, b, c] = self.vertices.map(|vertex| vertex.color);
+        core::array::from_fn(|i| a[i] * weights.x + b[i] * weights.y + c[i] * weights.z)
+    }
+
     /// The three corners' positions.
     pub fn positions(&self) -> [Vec3; 3] {
         self.vertices.map(|vertex| vertex.position)
@@ -91,7 +115,7 @@ impl CrownTriangle {
 /// The sparse part of a plant, as triangles: the input of [`bake`](super::bake()).
 ///
 /// Fill it from code with [`add_material`](Self::add_material) and [`push`](Self::push), or from Bevy meshes with
-/// [`add_mesh`](Self::add_mesh). Nothing is checked before it is baked.
+/// [`add_mesh`](Self::add_mesh), which checks them; what is pushed is checked before it is baked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CrownMesh {
     /// The triangles, in any order; they are seen from both sides.
@@ -127,7 +151,8 @@ impl CrownMesh {
                 normal: turn * vertex.normal,
                 ..vertex
             });
-            self.push(vertices, first + triangle.material);
+            // One that is not there stays one that is not there.
+            self.push(vertices, first.saturating_add(triangle.material));
         }
     }
 
@@ -146,37 +171,50 @@ impl CrownMesh {
     /// Refuses what cannot be baked; of degenerate triangles, which have no area, the rest is none the worse.
     ///
     /// # Errors
-    /// When there is no triangle, none has an area, one names a material that is not there, or a number of a vertex is not
-    /// finite, or too far from the origin.
+    /// When there is no triangle, none has an area, one names a material that is not there, or a number of a vertex or a material is
+    /// not finite, or too far from the origin.
     pub fn check(&self) -> Result<(), BakeError> {
         if self.triangles.is_empty() {
             return Err(BakeError::NoTriangles);
         }
-        for (index, triangle) in self.triangles.iter().enumerate() {
-            if triangle.material as usize >= self.materials.len() {
-                return Err(BakeError::MissingMaterial {
-                    triangle: index,
-                    material: triangle.material,
-                    count: self.materials.len(),
-                });
-            }
-            for vertex in &triangle.vertices {
-                let is_near = vertex.position.abs().max_element() <= MAX_COORDINATE;
-                // NaN is not near either; it hides from `max_element`.
-                if !is_near || !vertex.position.is_finite() {
-                    return Err(BakeError::Position {
-                        triangle: index,
-                        position: vertex.position,
-                    });
-                }
-                let colours = vertex.color.iter().all(|x| x.is_finite());
-                if !vertex.normal.is_finite() || !vertex.uv.is_finite() || !colours {
-                    return Err(BakeError::Attribute { triangle: index });
-                }
-            }
+        if let Some(material) = self.materials.iter().position(|m| !m.is_finite()) {
+            return Err(BakeError::Material { material });
         }
+        let count = self.materials.len();
+        let is_missing = |triangle: &CrownTriangle| triangle.material as usize >= count;
+        if let Some(index) = self.triangles.iter().position(is_missing) {
+            return Err(BakeError::MissingMaterial {
+                triangle: index,
+                material: self.triangles[index].material,
+                count,
+            });
+        }
+        self.check_vertices()?;
         if self.triangles.iter().all(|triangle| triangle.area() <= 0.0) {
             return Err(BakeError::NoArea);
+        }
+        Ok(())
+    }
+
+    /// Refuses numbers of vertices that are not finite, or too far from the origin.
+    pub(super) fn check_vertices(&self) -> Result<(), BakeError> {
+        for (index, triangle) in self.triangles.iter().enumerate() {
+            // NaN is not near either; it hides from `max_element`.
+            let is_far = |p: &Vec3| !p.is_finite() || p.abs().max_element() > MAX_COORDINATE;
+            // Before normals, which are made of positions where a mesh has none.
+            if let Some(position) = triangle.positions().into_iter().find(is_far) {
+                return Err(BakeError::Position {
+                    triangle: index,
+                    position,
+                });
+            }
+            let is_finite = |vertex: &CrownVertex| {
+                let colours = vertex.color.iter().all(|x| x.is_finite());
+                vertex.normal.is_finite() && vertex.uv.is_finite() && colours
+            };
+            if !triangle.vertices.iter().all(is_finite) {
+                return Err(BakeError::Attribute { triangle: index });
+            }
         }
         Ok(())
     }

@@ -1,9 +1,9 @@
 //! What is promised of baking.
 
-use bevy::asset::{Assets, RenderAssetUsages};
+use bevy::asset::{Assets, Handle, RenderAssetUsages};
 use bevy::image::Image;
 use bevy::math::{Affine2, Mat4, Vec2, Vec3};
-use bevy::mesh::{Indices, Mesh, PrimitiveTopology};
+use bevy::mesh::{Indices, Mesh, PrimitiveTopology, UvChannel};
 use bevy::pbr::StandardMaterial;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 use proptest::prelude::*;
@@ -378,6 +378,130 @@ fn a_trunk_is_solid_and_leaves_are_sparse() {
         (parts.solid.triangles.len(), parts.sparse.triangles.len()),
         (2, leaves)
     );
+}
+
+/// A material of a colour and a texture of one pixel.
+fn material(color: [f32; 4], pixel: [u8; 4]) -> CrownMaterial {
+    CrownMaterial {
+        color,
+        texture: Some(CrownTexture::new([1, 1], vec![pixel]).unwrap()),
+        ..CrownMaterial::default()
+    }
+}
+
+#[test]
+fn alpha_means_what_the_material_says() {
+    // A leaf of half an alpha before a red one: what is seen from +x, of colour and alpha.
+    let seen = |front: CrownMaterial, vertex_alpha: f32| {
+        let mut mesh = CrownMesh::default();
+        let front = mesh.add_material(front);
+        let red = mesh.add_material(CrownMaterial {
+            color: [1.0, 0.0, 0.0, 1.0],
+            ..CrownMaterial::default()
+        });
+        quad(&mut mesh, Vec3::X * 0.1, Vec3::Y, Vec3::NEG_Z, front);
+        for vertex in mesh.triangles.iter_mut().flat_map(|t| &mut t.vertices) {
+            vertex.color[3] = vertex_alpha;
+        }
+        quad(&mut mesh, Vec3::ZERO, Vec3::Y, Vec3::NEG_Z, red);
+        let slicing = bake(&mesh, &small().with_slices(1)).unwrap();
+        slicing.color(0)[16 * 32 + 16]
+    };
+    let green = [0.0, 1.0, 0.0, 0.5];
+    let (solid, gone) = ([255; 4], [255, 255, 255, 0]);
+    let blended = material(green, solid);
+    let opaque = CrownMaterial {
+        opaque: true,
+        ..material(green, gone)
+    };
+    let masked = |cutoff| CrownMaterial {
+        cutoff,
+        ..material(green, solid)
+    };
+    assert_eq!(seen(blended, 0.5), [0, 255, 0, 64]);
+    // What is not there hides nothing.
+    assert_eq!(seen(material(green, gone), 1.0), [255, 0, 0, 255]);
+    assert_eq!(seen(opaque, 0.0), [0, 255, 0, 255]);
+    // A mask looks at alpha of colour, texture and vertices together.
+    assert_eq!(seen(masked(0.4), 1.0), [0, 255, 0, 255]);
+    assert_eq!(seen(masked(0.4), 0.5), [255, 0, 0, 255]);
+}
+
+#[test]
+fn a_tiny_crown_far_from_the_origin_bakes() {
+    // A millimetre is less there than single precision tells apart.
+    let mut mesh = CrownMesh::default();
+    mesh.add_material(CrownMaterial::default());
+    let far = Vec3::splat(9e4);
+    quad(&mut mesh, far, Vec3::X * 0.02, Vec3::Y * 0.02, 0);
+    bake(&mesh, &small()).unwrap();
+}
+
+#[test]
+fn second_texture_coordinates_are_read_where_the_material_says() {
+    let mut mesh = triangle();
+    mesh.insert_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.25_f32, 0.5]; 3]);
+    mesh.insert_attribute(Mesh::ATTRIBUTE_UV_1, vec![[0.75_f32, 0.5]; 3]);
+    for (uv_channel, u) in [(UvChannel::Uv0, 0.25), (UvChannel::Uv1, 0.75)] {
+        let mut crown = CrownMesh::default();
+        let material = crown.add_material(CrownMaterial {
+            uv_channel,
+            ..CrownMaterial::default()
+        });
+        crown
+            .add_mesh("leaf", &mesh, Mat4::IDENTITY, material)
+            .unwrap();
+        assert_eq!(crown.triangles[0].vertices[0].uv.x, u);
+    }
+}
+
+#[test]
+fn what_a_mesh_and_its_material_lack_is_told_with_the_meshs_name() {
+    let told = |mesh: &Mesh| {
+        let error = CrownMesh::default().add_mesh("leaf", mesh, Mat4::IDENTITY, 0);
+        error.unwrap_err().to_string()
+    };
+    let odd = triangle().with_inserted_indices(Indices::U32(vec![0, 1, 2, 0]));
+    assert!(told(&odd).contains("`leaf` has 4 indices, no multiple of 3"));
+    let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, f32::NAN, 0.0]];
+    let broken = triangle().with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions);
+    let text = told(&broken);
+    assert!(
+        text.contains("`leaf`: triangle 0: position") && text.contains("correct the mesh"),
+        "{text}"
+    );
+    // A texture that is not loaded, and one whose pixels cannot be read.
+    let mut images = Assets::<Image>::default();
+    let mut compressed = Image::default();
+    compressed.texture_descriptor.format = TextureFormat::Bc1RgbaUnorm;
+    for (texture, why) in [
+        (
+            Handle::default(),
+            "`leaf`: its base colour texture is missing",
+        ),
+        (images.add(compressed), "`leaf`: a texture cannot be read"),
+    ] {
+        let material = StandardMaterial {
+            base_color_texture: Some(texture),
+            ..Default::default()
+        };
+        let error = CrownMaterial::from_standard("leaf", &material, &images).unwrap_err();
+        assert!(error.to_string().contains(why), "{error}");
+    }
+    let mut crown = crown(2);
+    crown.materials[0].cutoff = f32::NAN;
+    let error = bake(&crown, &small()).unwrap_err().to_string();
+    assert!(error.contains("material 0, counted from 0"), "{error}");
+}
+
+/// A mesh of one triangle.
+fn triangle() -> Mesh {
+    let positions = vec![[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    Mesh::new(
+        PrimitiveTopology::TriangleList,
+        RenderAssetUsages::default(),
+    )
+    .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
 }
 
 proptest! {

@@ -49,14 +49,6 @@ impl CrownTexture {
         Self::new(size.to_array(), pixels)
     }
 
-    /// The same colours without holes.
-    pub(super) fn opaque(mut self) -> Self {
-        for pixel in &mut self.pixels {
-            pixel[3] = 255;
-        }
-        self
-    }
-
     /// Colour at a place, linear; bilinear, and repeating.
     pub(super) fn sample(&self, uv: Vec2) -> [f32; 4] {
         let [width, height] = self.size;

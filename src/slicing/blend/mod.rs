@@ -78,7 +78,8 @@ pub fn drawn_slices(
                     SliceOrder::Steady => slanted(shape, weight, towards, direction),
                     SliceOrder::Paper => corrected(weight, greatest, shape.correction),
                 };
-                if opacity <= 0.0 || rank < left_out {
+                // One is always left, or far crowns would be gone.
+                if opacity <= 0.0 || rank < left_out.min(count - 1) {
                     continue;
                 }
                 drawn.push(DrawnSlice {

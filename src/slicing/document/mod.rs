@@ -9,7 +9,7 @@ use bevy::math::Vec3;
 use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
 
-use super::error::{SlicingFileError, SlicingFileErrorKind};
+use super::error::{SlicingError, SlicingFileError, SlicingFileErrorKind};
 use super::limits::{MAX_ORIENTATIONS, MAX_PIXELS, MAX_SLICES};
 use super::orientation::Orientation;
 use super::slicing::{Slicing, SlicingShape};
@@ -143,7 +143,11 @@ impl SlicingDocument {
 
     /// Width and height of each picture.
     pub fn picture_size(&self) -> [u32; 2] {
-        [self.pixels, self.pixels * self.levels.iter().sum::<u32>()]
+        let slices = self
+            .levels
+            .iter()
+            .fold(0, |sum: u32, n| sum.saturating_add(*n));
+        [self.pixels, self.pixels.saturating_mul(slices)]
     }
 
     /// The slicing of this document and its pictures, in the order of [`pictures`](Self::pictures). `path` names it in
@@ -156,20 +160,26 @@ impl SlicingDocument {
         path: &str,
         pictures: &[[Picture; 2]],
     ) -> Result<Slicing, SlicingFileError> {
+        let refuse = |error| SlicingFileError::new(path, error);
         let shape = self.shape();
+        shape.check().map_err(refuse)?;
         let layer = (self.pixels * self.pixels) as usize;
+        let expected = layer * self.levels.iter().sum::<u32>() as usize;
+        let mut sizes = pictures.as_flattened().iter().map(Vec::len);
+        if let Some(found) = sizes.find(|found| *found != expected) {
+            return Err(refuse(SlicingError::PictureSize { expected, found }));
+        }
         let [mut color, mut normal] = [Vec::new(), Vec::new()];
         let mut start = 0;
         for slices in &self.levels {
             let end = start + *slices as usize * layer;
             for [colors, normals] in pictures {
-                // A picture too short gives too few pixels in all, which are counted below.
-                color.extend(colors.get(start..end).unwrap_or_default());
-                normal.extend(normals.get(start..end).unwrap_or_default());
+                color.extend(&colors[start..end]);
+                normal.extend(&normals[start..end]);
             }
             start = end;
         }
-        Slicing::new(shape, color, normal).map_err(|error| SlicingFileError::new(path, error))
+        Slicing::new(shape, color, normal).map_err(refuse)
     }
 
     fn shape(&self) -> SlicingShape {

@@ -38,7 +38,8 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32, deviation: vec2
     }
     let count = crown.levels[level];
     let rank = place / PLACES;
-    if rank >= count || rank < crown.left_out {
+    // One is always left, or far crowns would be gone.
+    if rank >= count || rank < min(crown.left_out, count - 1u) {
         return DrawnSlice(0u, 0u, 0u, 0.0);
     }
 #ifdef CROWN_PARTS

@@ -35,7 +35,7 @@ fn slice_color(in: Varying) -> vec4<f32> {
 #ifndef PREPASS_PIPELINE
     let edge = min(min(in.uv.x, in.uv.y), min(1.0 - in.uv.x, 1.0 - in.uv.y));
     if edge < 0.012 {
-        color = vec4(1.0, 0.15, 0.05, in.opacity);
+        color = vec4(1.0, 0.15, 0.05, saturate(in.opacity));
     }
 #endif
 #endif
