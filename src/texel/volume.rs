@@ -215,8 +215,9 @@ pub(super) fn check_size(size: UVec3, lengths: Vec3) -> Result<(), TexelError> {
             });
         }
     }
-    let voxels = size.to_array().map(u64::from).iter().product::<u64>();
-    if size.max_element() > MAX_SIDE || voxels > u64::from(MAX_VOXELS) {
+    // Sides first: the product of larger ones would not fit.
+    let voxels = || size.to_array().map(u64::from).iter().product::<u64>();
+    if size.max_element() > MAX_SIDE || voxels() > u64::from(MAX_VOXELS) {
         return Err(TexelError::TooLarge { size });
     }
     if !lengths.is_finite() || lengths.min_element() <= 0.0 {
