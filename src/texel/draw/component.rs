@@ -67,7 +67,7 @@ impl TexelSurface {
     /// # Errors
     /// When the mesh carries no texels at all.
     pub fn facets(&self, mesh: &Mesh) -> Result<SurfaceFacets, TexelSurfaceError> {
-        facets(mesh, self.thickness, None)
+        facets(mesh, self.thickness, None, usize::MAX)
     }
 }
 
