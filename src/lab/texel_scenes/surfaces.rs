@@ -74,7 +74,7 @@ pub fn jittered(columns: u32, rows: u32, size: Vec2) -> Mesh {
     })
 }
 
-/// A sphere of 192 triangles, 12 by 8 squares of two, of which the lowest and the highest lose one each.
+/// A sphere of 192 triangles: 12 by 8 squares of two, at the poles too.
 pub fn sphere(radius: f32) -> Mesh {
     lattice(12, 8, |column, row| {
         let turn = column as f32 / 12.0 * TAU;

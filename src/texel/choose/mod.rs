@@ -77,7 +77,8 @@ pub struct TexelQuality {
     pub pixels: f32,
     /// The least angle between the view and the slices' normal, in radians from 0 to π/2, that slices are as many for. Seen
     /// along their normal few slices show no gaps, but then places are as coarse along the view as slices are apart, and
-    /// texels that overlap meet in steps.
+    /// texels that overlap meet in steps. What is below or above is taken for the nearest, and no number for 0; at π/2
+    /// `depth` asks for all slices there are.
     pub least_angle: f32,
 }
 
@@ -331,6 +332,8 @@ fn slices_needed(
 ) -> Needed {
     let mut needed = Needed::default();
     let (least_sin, least_cos) = quality.least_angle.clamp(0.0, FRAC_PI_2).sin_cos();
+    // The f32 next to π/2 is beyond it, where the tangent is negative.
+    let least_cos = least_cos.max(f32::EPSILON);
     for w in [0.0, 1.0] {
         for (b, corner) in [Vec3::X, Vec3::Y, Vec3::Z]
             .into_iter()

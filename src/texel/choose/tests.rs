@@ -220,6 +220,11 @@ fn at_the_least_angle_there_are_as_many_slices_as_seen_from_it() {
     assert_eq!(count(0.0, 25f32.to_radians()), (aslant, 0.0));
     assert_eq!(count(25.0, 0.1).0, aslant);
     assert!(aslant > 1);
+    // Along the slices, or beyond, all there are.
+    for least_angle in [FRAC_PI_2, 2.0, f32::INFINITY] {
+        assert_eq!(count(0.0, least_angle), (6, 0.0), "{least_angle}");
+    }
+    assert_eq!(count(0.0, -1.0), count(0.0, 0.0));
 }
 
 #[test]

@@ -37,13 +37,27 @@ pub(crate) struct Geometry {
 /// Records between two changed ones that are written along with them, rather than these apart.
 const LEAST_GAP: usize = 4;
 
-/// The facets of a mesh with texels as thick, or with other height vectors than its own.
+/// The facets of a mesh with texels as thick, or with other height vectors than its own, on a device that takes `most`.
 pub(crate) fn facets(
     mesh: &Mesh,
     thickness: f32,
     heights: Option<&TexelHeights>,
+    most: usize,
 ) -> Result<SurfaceFacets, TexelSurfaceError> {
-    Ok(completed(mesh, thickness, heights)?.completed_facets())
+    facets_within(&completed(mesh, thickness, heights)?, most)
+}
+
+/// The facets of a completed surface on a device that takes `most`. Those that are left out count: the buffer has room for
+/// them, so that they may come back.
+pub(crate) fn facets_within(
+    surface: &Surface,
+    most: usize,
+) -> Result<SurfaceFacets, TexelSurfaceError> {
+    let facets = surface.triangles.len();
+    if facets > most {
+        return Err(TexelSurfaceError::TooManyFacets { facets, most });
+    }
+    Ok(surface.completed_facets())
 }
 
 /// The surface of a mesh, with the height vectors that it is covered by.

@@ -8,6 +8,7 @@ use bevy::image::Image;
 use bevy::mesh::PrimitiveTopology;
 use bevy::platform::collections::{HashMap, HashSet};
 use bevy::prelude::*;
+use bevy::render::renderer::RenderDevice;
 use bevy::render::storage::ShaderBuffer;
 
 use super::super::asset::TexelVolume;
@@ -16,8 +17,9 @@ use super::super::choose::VolumeMeasure;
 use super::super::facet::SurfaceFacets;
 use super::super::slice_sets::{SliceBoxes, SliceSets};
 use super::component::{TexelHeights, TexelSettings, TexelSurface};
-use super::geometry::{Geometry, completed, facets};
+use super::geometry::{Geometry, completed, facets, facets_within};
 use super::images::slice_images;
+use super::limit::DeviceLimits;
 use super::material::{TexelMaterial, TexelsUniform};
 use super::skin::Skin;
 use super::source::DrawnVolume;
@@ -108,9 +110,27 @@ pub(crate) struct TexelAssets<'w> {
     materials: ResMut<'w, Assets<TexelMaterial>>,
     pub volumes: Res<'w, Assets<TexelVolume>>,
     server: Option<Res<'w, AssetServer>>,
+    /// None without a renderer.
+    pub device: Option<Res<'w, RenderDevice>>,
 }
 
 impl TexelAssets<'_> {
+    fn limits(&self) -> DeviceLimits {
+        DeviceLimits::of(self.device.as_deref())
+    }
+
+    /// What messages call a volume by.
+    fn volume_name(&self, volume: AssetId<TexelVolume>) -> String {
+        let path = self
+            .server
+            .as_ref()
+            .and_then(|server| server.get_path(volume));
+        match path {
+            Some(path) => format!("volume {path}"),
+            None => format!("volume {volume}"),
+        }
+    }
+
     /// What messages call a mesh by: where it was loaded from, or a surface that has it.
     fn mesh_name(&self, mesh: AssetId<Mesh>, owner: &NameOrEntityItem) -> String {
         let path = self
@@ -159,17 +179,12 @@ impl TexelLibrary {
     }
 
     /// What a surface is drawn with. `heights` are its own, if it has any; messages name its `owner`.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "all that a surface's looks depend on"
-    )]
     pub(crate) fn drawn(
         &mut self,
         keys: TexelKeys,
         owner: &NameOrEntityItem,
         settings: &TexelSettings,
         heights: Option<&TexelHeights>,
-        most_layers: u32,
         wind: Vec3,
         assets: &mut TexelAssets,
     ) -> Drawn<'_> {
@@ -179,7 +194,7 @@ impl TexelLibrary {
             None if !assets.meshes.contains(keys.geometry.mesh) => return Drawn::NotYet,
             _ => {}
         }
-        let Some(volume) = self.volume(keys.volume, most_layers, assets) else {
+        let Some(volume) = self.volume(keys.volume, assets) else {
             return Drawn::NotYet;
         };
         let measure = volume.measure;
@@ -189,7 +204,7 @@ impl TexelLibrary {
             };
             let name = assets.mesh_name(keys.geometry.mesh, owner);
             let thickness = f32::from_bits(keys.geometry.thickness);
-            let found = told_facets(&name, mesh, thickness, heights);
+            let found = told_facets(&name, mesh, thickness, heights, assets.limits().facets);
             let geometry = found.map(|facets| Geometry::new(&facets, &mut assets.buffers));
             self.geometries.insert(keys.geometry, geometry);
         }
@@ -225,16 +240,14 @@ impl TexelLibrary {
         Drawn::Slices(geometry, volume, materials.clone())
     }
 
-    fn volume(
-        &mut self,
-        key: VolumeKey,
-        most_layers: u32,
-        assets: &mut TexelAssets,
-    ) -> Option<&SharedVolume> {
+    fn volume(&mut self, key: VolumeKey, assets: &mut TexelAssets) -> Option<&SharedVolume> {
         if !self.volumes.contains_key(&key) {
             let volume = &assets.volumes.get(key.id)?.0;
-            // Sets of 1, 2, 4 and so on slices are 2N − 1 layers.
-            let most = key.most.clamp(1, most_layers.div_ceil(2));
+            let limits = assets.limits();
+            if let Some(fewer) = fewer_slices(volume.size(), key.most, limits) {
+                warn!("{}: {fewer}", assets.volume_name(key.id));
+            }
+            let most = key.most.clamp(1, limits.slices());
             let sets = SliceSets::new(volume, most);
             let images = slice_images(&sets).map(|both| both.map(|image| assets.images.add(image)));
             let measure = VolumeMeasure::of(volume, most);
@@ -321,8 +334,9 @@ impl TexelLibrary {
             return;
         };
         let thickness = f32::from_bits(key.thickness);
+        let most = assets.limits().facets;
         let mesh = assets.meshes.get(key.mesh);
-        let found = mesh.and_then(|mesh| facets(mesh, thickness, heights).ok());
+        let found = mesh.and_then(|mesh| facets(mesh, thickness, heights, most).ok());
         let is_stale = match (geometry, found) {
             (Some(geometry), Some(found)) if !found.facets.is_empty() => {
                 geometry.renew(&found, &mut assets.buffers)
@@ -360,7 +374,7 @@ impl TexelLibrary {
         };
         let mut surface = completed(mesh, f32::from_bits(key.thickness), heights)?;
         Skin::of(mesh, surface.positions.len())?.pose(&mut surface, matrices)?;
-        let found = surface.completed_facets();
+        let found = facets_within(&surface, assets.limits().facets)?;
         if found.facets.is_empty() {
             return Ok(None);
         }
@@ -416,14 +430,28 @@ impl TexelLibrary {
     }
 }
 
-/// The facets of a mesh; none, and a message, if it has none.
+/// What to tell of a volume that has fewer slices on a device than are asked for.
+fn fewer_slices(size: UVec3, asked: u32, limits: DeviceLimits) -> Option<String> {
+    let even = |most: u32| size.max_element().min(1 << most.max(1).ilog2());
+    let (wanted, most) = (even(asked), even(limits.slices()));
+    (wanted > most).then(|| {
+        format!(
+            "a texel gets {most} slices instead of {wanted}, for texture arrays have {} layers on this device. Set \
+             TexelSettings::most_slices to {most}, or ask for more max_texture_array_layers in the renderer's WgpuSettings",
+            limits.layers
+        )
+    })
+}
+
+/// The facets of a mesh; none, and a message, if it has none, or more than `most`.
 fn told_facets(
     name: &str,
     mesh: &Mesh,
     thickness: f32,
     heights: Option<&TexelHeights>,
+    most: usize,
 ) -> Option<SurfaceFacets> {
-    let found = match facets(mesh, thickness, heights) {
+    let found = match facets(mesh, thickness, heights, most) {
         Ok(found) => found,
         Err(error) => {
             error!("{name} carries no texels: {error}");
@@ -461,10 +489,42 @@ mod tests {
     use super::*;
 
     #[test]
+    fn meshes_of_more_triangles_than_the_device_holds_are_refused() {
+        let mesh = Plane3d::default().mesh().build();
+        let within = |most| facets(&mesh, 0.1, None, most);
+        assert_eq!(within(2).expect("two triangles").facets.len(), 2);
+        let error = within(1).unwrap_err().to_string();
+        for part in ["2 triangles", "holds 1", "144 bytes", "split the mesh"] {
+            assert!(error.contains(part), "{error}");
+        }
+        assert_eq!(told_facets("mesh lawn.glb", &mesh, 0.1, None, 1), None);
+    }
+
+    #[test]
+    fn slices_that_a_device_has_no_layers_for_are_told_with_what_to_do() {
+        let limits = DeviceLimits {
+            layers: 256,
+            facets: 1,
+        };
+        let size = UVec3::new(256, 64, 32);
+        let told = fewer_slices(size, 300, limits).expect("256 are wanted");
+        for part in [
+            "128 slices instead of 256",
+            "256 layers",
+            "most_slices to 128",
+        ] {
+            assert!(told.contains(part), "{told}");
+        }
+        assert_eq!(fewer_slices(size, 128, limits), None);
+        assert_eq!(fewer_slices(size / 2, 256, limits), None);
+        assert_eq!(fewer_slices(size, 0, limits), None);
+    }
+
+    #[test]
     fn morph_targets_are_warned_of_by_name_and_with_what_to_do() {
         let mut mesh = Plane3d::default().mesh().build();
         let told = |mesh: &Mesh| {
-            let found = facets(mesh, 0.1, None).expect("it has texture coordinates");
+            let found = facets(mesh, 0.1, None, 2).expect("it has texture coordinates");
             warnings("mesh lawn.glb", mesh, &found)
         };
         assert!(told(&mesh).is_empty());

@@ -1,10 +1,56 @@
-//! How many slices a surface may show.
+//! How many slices and facets a surface may have.
+
+use bevy::render::renderer::RenderDevice;
 
 use super::super::axis::SliceAxis;
 use super::super::facet::{Facet, slice_range};
+use super::records::FacetRecord;
 
 /// The most slices that a surface may show across each axis in one view. 32 bytes each.
 pub const MAX_SLICES: usize = 1 << 21;
+
+/// What of a surface and a volume fits on a device.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct DeviceLimits {
+    /// Layers of a texture array.
+    pub layers: u32,
+    /// Facets in a storage buffer.
+    pub facets: usize,
+}
+
+/// Layers of a texture array that every device has.
+const LAYERS: u32 = 256;
+
+/// Bytes of a storage buffer that shaders may read on every device: wgpu's default.
+const BUFFER_BYTES: u64 = 1 << 27;
+
+impl DeviceLimits {
+    fn new(layers: u32, buffer_bytes: u64) -> Self {
+        let facets = buffer_bytes / size_of::<FacetRecord>() as u64;
+        Self {
+            layers,
+            facets: usize::try_from(facets).unwrap_or(usize::MAX),
+        }
+    }
+
+    /// Those of a device, or of any if there is none.
+    pub(crate) fn of(device: Option<&RenderDevice>) -> Self {
+        let Some(device) = device else {
+            return Self::new(LAYERS, BUFFER_BYTES);
+        };
+        let limits = device.limits();
+        let bytes = limits.max_storage_buffer_binding_size;
+        Self::new(
+            limits.max_texture_array_layers,
+            bytes.min(limits.max_buffer_size),
+        )
+    }
+
+    /// The most slices a texel that a texture array has room for: sets of 1, 2, 4 and so on up to N are 2N − 1 layers.
+    pub(crate) fn slices(self) -> u32 {
+        self.layers.div_ceil(2).max(1)
+    }
+}
 
 /// How many slices a facet may show of at most so many a texel across an axis, with half as many that fade into them.
 ///
@@ -27,6 +73,15 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+
+    #[test]
+    fn a_storage_buffer_and_a_texture_array_bound_facets_and_slices() {
+        let limits = DeviceLimits::of(None);
+        assert_eq!(limits, DeviceLimits::new(256, 1 << 27));
+        assert_eq!((limits.slices(), limits.facets), (128, (1 << 27) / 144));
+        assert_eq!(DeviceLimits::new(1, 143).facets, 0);
+        assert_eq!(DeviceLimits::new(0, 0).slices(), 1);
+    }
 
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]

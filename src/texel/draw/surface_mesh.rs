@@ -6,6 +6,7 @@ use thiserror::Error;
 use super::super::facet::{Surface, SurfaceError};
 use super::super::from_mesh::{ShapeMeshError, positions, triangles, uvs, vectors};
 use super::component::ATTRIBUTE_HEIGHT_VECTOR;
+use super::records::FacetRecord;
 
 /// Why a mesh carries no texels at all.
 #[derive(Debug, Error)]
@@ -20,6 +21,18 @@ pub enum TexelSurfaceError {
     /// The length of height vectors is none.
     #[error("the thickness of the texels is {0}: give it a finite length greater than 0")]
     Thickness(f32),
+    /// There are more facets than the device's buffers hold.
+    #[error(
+        "it has {facets} triangles, of which a storage buffer of this device holds {most}, at {} bytes each: split the mesh \
+         into several, on an entity each",
+        size_of::<FacetRecord>()
+    )]
+    TooManyFacets {
+        /// How many triangles the mesh has.
+        facets: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// The mesh of a `SkinnedMesh` says nothing of joints.
     #[error(
         "it has a SkinnedMesh, but its mesh has no joints: give it ATTRIBUTE_JOINT_INDEX (Uint16x4) and \

@@ -8,7 +8,6 @@ use bevy::mesh::skinning::SkinnedMesh;
 use bevy::platform::collections::HashSet;
 use bevy::prelude::*;
 use bevy::render::batching::NoAutomaticBatching;
-use bevy::render::renderer::RenderDevice;
 
 use super::super::asset::TexelVolume;
 use super::component::{LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface};
@@ -43,9 +42,6 @@ impl TexelDrawn {
         }
     }
 }
-
-/// Layers of a texture array that every device has.
-const LAYERS: u32 = 256;
 
 /// What is looked at of a surface.
 type Attachable<'w> = (
@@ -87,6 +83,8 @@ pub(crate) struct Looked<'w, 's> {
     lost: Lost<'w, 's>,
     /// Kept from frame to frame, so that nothing is allocated.
     list: Local<'s, Vec<Entity>>,
+    /// Those that are drawn with what they had, until their new mesh or volume is there.
+    waiting: Local<'s, Vec<Entity>>,
 }
 
 /// The children that slices are drawn by.
@@ -98,19 +96,18 @@ pub(crate) fn attach(
     mut commands: Commands,
     mut library: ResMut<TexelLibrary>,
     mut assets: TexelAssets,
-    device: Option<Res<RenderDevice>>,
     wind: Res<Wind>,
     mut looked: Looked,
     mut slices: Query<Slices, (With<TexelSlices>, Without<TexelSurface>)>,
 ) {
-    if device.as_ref().is_some_and(|device| device.is_changed()) {
+    let device = assets.device.as_ref();
+    if device.is_some_and(|device| device.is_changed()) {
         library.clear();
     }
-    let layers = device.map_or(LAYERS, |device| device.limits().max_texture_array_layers);
     let wind = wind.limited();
     let quad = library.quad(&mut assets.meshes);
-    let mut is_waiting = false;
     looked.list.clear();
+    looked.list.append(&mut looked.waiting);
     if core::mem::take(&mut library.is_stale) {
         let surfaces = looked.surfaces.iter();
         looked.list.extend(surfaces.map(|surface| surface.0.entity));
@@ -122,6 +119,9 @@ pub(crate) fn attach(
             .chain(lost.skins.read());
         looked.list.extend(lost);
     }
+    // Each is looked at once, or one that is not drawn yet would get slices twice.
+    looked.list.sort_unstable();
+    looked.list.dedup();
     for &entity in &*looked.list {
         let Ok(found) = looked.surfaces.get(entity) else {
             continue;
@@ -135,10 +135,13 @@ pub(crate) fn attach(
         if (is_live || is_stroked) && !is_skinned {
             library.renew(keys.geometry, heights, &mut assets);
         }
-        let found = library.drawn(keys, &owner, settings, heights, layers, wind, &mut assets);
+        let found = library.drawn(keys, &owner, settings, heights, wind, &mut assets);
         let (geometry, volume, materials) = match found {
             Drawn::NotYet => {
-                is_waiting = true;
+                // One that is not drawn at all is looked at anyway.
+                if drawn.is_some() {
+                    looked.waiting.push(entity);
+                }
                 continue;
             }
             Drawn::Nothing => {
@@ -152,7 +155,7 @@ pub(crate) fn attach(
             }
             Drawn::Slices(geometry, volume, materials) => (geometry, volume, materials),
         };
-        let bounds = geometry.bounds_in_wind(settings.flexibility);
+        let bounds = geometry.bounds_in_wind(settings.limited_flexibility());
         let slices = if let Some(drawn) = drawn {
             for (child, material) in drawn.slices.iter().zip(materials) {
                 if let Ok((mut used, mut seen)) = slices.get_mut(*child) {
@@ -187,7 +190,6 @@ pub(crate) fn attach(
             commands.entity(entity).try_insert(source);
         }
     }
-    library.is_stale |= is_waiting;
 }
 
 /// Follows meshes and volumes that were edited or reloaded.

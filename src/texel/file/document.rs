@@ -124,7 +124,8 @@ impl TexelDocument {
     /// Makes the volume from the bytes of the images. `path` is that of the document.
     ///
     /// # Errors
-    /// When an image is no PNG of the size that slices ask for, or the voxels make no volume.
+    /// When the document says what cannot be a volume, as one of a file does, an image is no PNG of the size that slices ask
+    /// for, or the voxels make no volume.
     pub fn volume(
         &self,
         path: &str,
@@ -132,6 +133,9 @@ impl TexelDocument {
         normals: Option<&[u8]>,
         progress: Progress,
     ) -> Result<ReferenceVolume, TexelFileError> {
+        // Whoever made it in code may have written anything into its fields.
+        self.check()
+            .map_err(|kind| TexelFileError::new(path, kind))?;
         let beside = |name: &str| match path.rfind(['/', '\\']) {
             Some(end) => format!("{}{name}", &path[..=end]),
             None => name.to_owned(),

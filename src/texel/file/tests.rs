@@ -214,6 +214,29 @@ fn images_that_do_not_fit_are_named() {
     );
 }
 
+#[test]
+fn a_document_made_in_code_is_checked_as_one_of_a_file() {
+    let made = volume(UVec3::new(8, 4, 16), |_| true);
+    let (document, [colors, normals]) = TexelDocument::of(&made, "b");
+    let refused = |change: &dyn Fn(&mut TexelDocument)| {
+        let mut changed = document.clone();
+        change(&mut changed);
+        let volume = changed.volume("a/b.texel.ron", &colors, Some(&normals), &silent);
+        volume.unwrap_err().to_string()
+    };
+    for (message, fix) in [
+        (refused(&|d| d.columns = 0), "power of two"),
+        (refused(&|d| d.columns = u32::MAX), "power of two"),
+        (refused(&|d| d.size = UVec3::MAX), "take"),
+        (refused(&|d| d.size = UVec3::splat(1 << 31)), "take fewer"),
+        (refused(&|d| d.size.z = 0), "take"),
+        (refused(&|d| d.lengths.x = f32::NAN), "in metres"),
+    ] {
+        assert!(message.starts_with("a/b.texel.ron: "), "{message}");
+        assert!(message.contains(fix), "{message}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(200) })]
 
