@@ -8,7 +8,6 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use bevy::math::Mat4;
 use bevy_verdure::lab::{ModelPart, broadleaf_crown, load_model, parse_share, save_slicing};
 use bevy_verdure::plants::Broadleaf;
 use bevy_verdure::prelude::*;
@@ -135,24 +134,16 @@ fn crown(args: &Args) -> Result<(CrownMesh, usize), String> {
         let crown = broadleaf_crown(&tree, args.transmission).map_err(|error| error.to_string())?;
         return Ok((crown, Broadleaf::default().solid_triangles as usize));
     };
-    let parts = load_model(path)?;
-    let all: usize = parts.iter().map(|part| part.crown.triangles.len()).sum();
-    if all == 0 {
-        return Err(format!(
-            "{}: has no triangles: export the meshes of its scene",
-            path.display()
-        ));
-    }
-    let is_named = |part: &&ModelPart| {
+    let model = load_model(path)?;
+    let is_named = |part: &ModelPart| {
         let holds = |name: &String| {
             part.mesh.contains(name.as_str()) || part.material.contains(name.as_str())
         };
         args.sparse.is_empty() || args.sparse.iter().any(holds)
     };
-    let mut crown = CrownMesh::default();
-    for part in parts.iter().filter(is_named) {
-        crown.append(&part.crown, Mat4::IDENTITY);
-    }
+    let mut crown = model
+        .crown(is_named)
+        .map_err(|error| format!("{}: {error}", path.display()))?;
     // Files do not say.
     for material in &mut crown.materials {
         material.diffuse_transmission = args.transmission;
@@ -161,7 +152,8 @@ fn crown(args: &Args) -> Result<(CrownMesh, usize), String> {
         crown = separate(&crown, args.share).sparse;
     }
     if crown.triangles.is_empty() {
-        let names: Vec<_> = parts
+        let names: Vec<_> = model
+            .parts
             .iter()
             .map(|part| format!("`{}`/`{}`", part.mesh, part.material))
             .collect();
@@ -171,6 +163,7 @@ fn crown(args: &Args) -> Result<(CrownMesh, usize), String> {
             names.join(", ")
         ));
     }
+    let all: usize = model.parts.iter().map(ModelPart::triangle_count).sum();
     let solid = all - crown.triangles.len();
     Ok((crown, solid))
 }

@@ -4,6 +4,7 @@
 //! cargo run --example bake_texel -- pear --size 64x64x64 --out out/pear.texel.ron --preview out/pear.png
 //! cargo run --example bake_texel -- height hills.png --colors grass.png --size 256x256x64 --out out/hills.texel.ron
 //! cargo run --example bake_texel -- images slice_00.png slice_01.png --out out/stack.texel.ron
+//! cargo run --example bake_texel -- model bush.glb --filling none --isolated --out out/bush.texel.ron
 //! cargo run --example bake_texel -- show out/pear.texel.ron --preview out/pear.png
 //! ```
 
@@ -15,9 +16,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use bevy::math::{UVec3, Vec3};
-use bevy_verdure::lab::parse_vec3;
 use bevy_verdure::lab::texel_scenes::Pattern;
-use bevy_verdure::texel::build::{Built, Spreading};
+use bevy_verdure::lab::{parse_filling, parse_vec3};
+use bevy_verdure::texel::build::{Built, Filling, Spreading};
 use bevy_verdure::texel::file::{load, save};
 use bevy_verdure::texel::{
     BuildStep, Progress, ReferenceVolume, SliceAxis, SliceSets, Topology, silent,
@@ -52,6 +53,15 @@ enum Source {
         #[arg(required = true)]
         files: Vec<PathBuf>,
     },
+    /// The meshes of a glTF model; its y is up, along w, and its -z is along v.
+    Model {
+        /// The `*.glb` or `*.gltf`.
+        file: PathBuf,
+        /// What is opaque: all that a closed surface keeps from the outside (flood, or parity, the paper's way), or the
+        /// surface alone with the holes of its alpha, as for leaves (none).
+        #[arg(long, default_value = "flood", value_parser = parse_filling)]
+        filling: Filling,
+    },
     /// A volume that was baked before.
     Show {
         /// The `*.texel.ron` file.
@@ -65,10 +75,11 @@ struct Output {
     /// Voxels along u, v and w: powers of two.
     #[arg(long, value_parser = parse_voxels, global = true)]
     size: Option<UVec3>,
-    /// Lengths of the box along u, v and w in metres; those of a pattern are its own.
+    /// Lengths of the box along u, v and w in metres; those of a pattern are its own. A model stands in the middle of it,
+    /// and has a box of its own if there are none.
     #[arg(long, value_parser = parse_vec3, global = true)]
     lengths: Option<Vec3>,
-    /// The shape keeps away from the sides; images and heights tile otherwise. Patterns have sides of their own.
+    /// The shape keeps away from the sides; images, heights and models tile otherwise. Patterns have sides of their own.
     #[arg(long, global = true)]
     isolated: bool,
     /// Colours spread within slices along w only, as in the paper.
@@ -142,7 +153,7 @@ fn check(Cli { source, output }: &Cli) -> Result<(), String> {
                 ("--isolated", output.isolated),
             ],
         ),
-        Source::Height { .. } => return Ok(()),
+        Source::Height { .. } | Source::Model { .. } => return Ok(()),
         Source::Images { files } => (
             format!("{}: images are opaque where they are", files[0].display()),
             vec![("--within-slices", output.within_slices)],
@@ -225,6 +236,9 @@ fn built(source: &Source, output: &Output, progress: Progress) -> Result<Built, 
             return sources::height(file, colors.as_deref(), output, progress);
         }
         Source::Images { files } => return sources::images(files, output, progress),
+        Source::Model { file, filling } => {
+            return sources::model(file, *filling, output, progress);
+        }
         Source::Show { .. } => return Err("there is nothing to build".into()),
     };
     let size = output.size.unwrap_or(pattern.size());

@@ -1,10 +1,12 @@
-//! Volumes from image files.
+//! Volumes from files: images and models.
 
 use std::path::{Path, PathBuf};
 
-use bevy::math::{UVec2, Vec3};
+use bevy::math::{UVec2, UVec3, Vec3};
+use bevy_verdure::lab::load_model;
 use bevy_verdure::texel::build::{
-    Built, HeightField, StackImage, VolumeSettings, from_height_field, from_images,
+    Built, Filling, HeightField, Shape, ShapeSettings, StackImage, VolumeSettings,
+    from_height_field, from_images, from_shape,
 };
 use bevy_verdure::texel::{Progress, TexelError};
 use image::RgbaImage;
@@ -103,4 +105,41 @@ pub fn images(files: &[PathBuf], output: &Output, progress: Progress) -> Result<
             files.len()
         )
     })
+}
+
+/// From all meshes of a glTF model.
+pub fn model(
+    file: &Path,
+    filling: Filling,
+    output: &Output,
+    progress: Progress,
+) -> Result<Built, String> {
+    let named = |message: String| format!("{}: {message}", file.display());
+    let shape = load_model(file)?.shape().map_err(named)?;
+    let settings = ShapeSettings {
+        bounds: output.lengths.map(|lengths| around(&shape, lengths)),
+        topology: output.topology(),
+        filling,
+        spreading: output.spreading(),
+        ..ShapeSettings::new(output.size.unwrap_or(UVec3::splat(64)))
+    };
+    from_shape(&shape, &settings, progress).map_err(|error| {
+        let argument = match error {
+            TexelError::Open { .. } => " (--filling none)",
+            TexelError::Box { .. } | TexelError::OutsideBox { .. } => " (--lengths)",
+            _ => "",
+        };
+        named(format!("{error}{argument}"))
+    })
+}
+
+/// A box of these lengths, in whose middle the shape stands.
+fn around(shape: &Shape, lengths: Vec3) -> [Vec3; 2] {
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for &vertex in shape.triangles.as_flattened() {
+        let corner = shape.positions[vertex as usize];
+        (low, high) = (low.min(corner), high.max(corner));
+    }
+    let min = (low.midpoint(high) - lengths / 2.0).with_z(low.z);
+    [min, min + lengths]
 }

@@ -6,6 +6,7 @@ use bevy::math::{UVec2, Vec3};
 use clap::Args;
 
 use super::charts::Chart;
+use crate::texel::build::Filling;
 
 /// Arguments of every example.
 #[derive(Args, Clone, Debug)]
@@ -100,12 +101,24 @@ pub fn parse_share(text: &str) -> Result<f32, String> {
     share.ok_or_else(|| format!("'{text}' is no share: give a number from 0 to 1"))
 }
 
+/// Reads what of a shape is opaque.
+pub fn parse_filling(text: &str) -> Result<Filling, String> {
+    match text {
+        "flood" => Ok(Filling::Flood),
+        "parity" => Ok(Filling::Parity),
+        "none" => Ok(Filling::None),
+        _ => Err(format!(
+            "'{text}' is no filling: write flood, parity or none"
+        )),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn sizes_points_and_shares_are_read_and_nonsense_is_named() {
+    fn what_arguments_say_is_read_and_nonsense_is_named() {
         assert_eq!(parse_size("640x480"), Ok(UVec2::new(640, 480)));
         assert!(parse_size("640").unwrap_err().contains("640x480"));
         assert!(parse_size("0x99999").is_err());
@@ -116,5 +129,8 @@ mod tests {
         assert_eq!(parse_share("0.25"), Ok(0.25));
         assert!(parse_share("1.5").unwrap_err().contains("0 to 1"));
         assert!(parse_share("NaN").is_err());
+        assert_eq!(parse_filling("none"), Ok(Filling::None));
+        let message = parse_filling("full").unwrap_err();
+        assert!(message.contains("'full'") && message.contains("flood, parity or none"));
     }
 }

@@ -27,7 +27,7 @@ pub mod texel_scenes;
 mod texture;
 mod timing;
 
-pub use args::{ChartArgs, CommonArgs, Size, parse_share, parse_size, parse_vec3};
+pub use args::{ChartArgs, CommonArgs, Size, parse_filling, parse_share, parse_size, parse_vec3};
 pub use billboards::{Billboard, add_billboards};
 pub use broadleaf_crown::broadleaf_crown;
 pub use capture::{Pixels, load_png};
@@ -37,7 +37,7 @@ pub use daylight::{Daylight, SKY, SUNLIGHT};
 pub use error::GeometryError;
 pub use exr_file::save_exr;
 pub use headless::{Headless, adapter_name, wait_for_gpu};
-pub use model::{ModelPart, load_model};
+pub use model::{Model, ModelPart, load_model};
 pub use octahedral::{Impostor, ImpostorMaterial, ImpostorPlugin, add_impostor};
 pub use slicing_file::{SavedSlicing, save_slicing};
 pub use studio::{Figures, Lens, NEAR, SeenPixel, Shot, Studio};

@@ -68,9 +68,14 @@ impl Shape {
         }
         let first = self.positions.len() as u32;
         self.complete();
+        // Models have many meshes of one material, and a texture may be large.
+        let known = self.paints.iter().position(|known| *known == paint);
+        let index = known.unwrap_or_else(|| {
+            self.paints.push(paint);
+            self.paints.len() - 1
+        });
         self.paint_of
-            .extend(vec![self.paints.len() as u16; added.triangles.len()]);
-        self.paints.push(paint);
+            .extend(vec![index as u16; added.triangles.len()]);
         self.positions.extend(added.positions);
         self.normals.extend(added.normals);
         self.uvs.extend(added.uvs);

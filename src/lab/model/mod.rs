@@ -1,33 +1,28 @@
 //! Models to bake, from glTF: `*.glb` and `*.gltf` with buffers and PNG textures in the file or beside it.
 
 mod mesh;
+mod parts;
 mod texture;
 
+use std::collections::HashMap;
 use std::path::Path;
 
+use bevy::asset::Handle;
+use bevy::color::Color;
+use bevy::image::Image;
 use bevy::math::{Affine2, Mat4};
-use gltf::material::AlphaMode;
+use bevy::pbr::StandardMaterial;
+use bevy::prelude::AlphaMode;
 
-use crate::slicing::{BakeError, CrownMaterial, CrownMesh};
+pub use parts::{Model, ModelPart};
 
-/// A part of a model: all that one node draws with one material.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ModelPart {
-    /// Name of the mesh; empty where it has none.
-    pub mesh: String,
-    /// Name of the material; empty where it has none.
-    pub material: String,
-    /// Its triangles, in the model's space.
-    pub crown: CrownMesh,
-}
-
-/// Reads a model's triangles and base colours, with where their textures lie (`KHR_texture_transform`). Skins and
-/// animations are not followed.
+/// Reads the triangles and base colours of a model's default scene, with where their textures lie
+/// (`KHR_texture_transform`). Skins and animations are not followed.
 ///
 /// # Errors
-/// When a file is missing or not glTF, a texture is no PNG, a mesh is not one of triangles or has numbers that are none,
-/// or a node stands in two places; the message names it.
-pub fn load_model(path: &Path) -> Result<Vec<ModelPart>, String> {
+/// When a file is missing or not glTF, there are no triangles, a texture is no PNG, a mesh is not one of triangles or has
+/// numbers that are none, or a node stands in two places; the message names it.
+pub fn load_model(path: &Path) -> Result<Model, String> {
     let named = |message: String| format!("{}: {message}", path.display());
     let bytes = std::fs::read(path)
         .map_err(|error| named(format!("{error}. Give the path of a *.glb or *.gltf")))?;
@@ -36,8 +31,14 @@ pub fn load_model(path: &Path) -> Result<Vec<ModelPart>, String> {
             "is no glTF that can be read: {error}. Export it anew, uncompressed"
         ))
     })?;
-    let model = Model::open(path, &gltf).map_err(named)?;
-    model.parts(&gltf).map_err(named)
+    let reader = Reader::open(path, &gltf).map_err(named)?;
+    let model = reader.read(&gltf).map_err(named)?;
+    if model.parts.iter().all(|part| part.triangle_count() == 0) {
+        return Err(named(
+            "has no triangles: export the meshes of its scene".into(),
+        ));
+    }
+    Ok(model)
 }
 
 fn parse(bytes: &[u8]) -> Result<gltf::Gltf, String> {
@@ -57,12 +58,15 @@ fn parse(bytes: &[u8]) -> Result<gltf::Gltf, String> {
     })
 }
 
-struct Model<'a> {
+struct Reader<'a> {
     path: &'a Path,
     buffers: Vec<Vec<u8>>,
+    /// The images that were read, by their number in the file.
+    textures: HashMap<usize, Handle<Image>>,
+    model: Model,
 }
 
-impl<'a> Model<'a> {
+impl<'a> Reader<'a> {
     fn open(path: &'a Path, gltf: &gltf::Gltf) -> Result<Self, String> {
         let mut buffers = Vec::new();
         for buffer in gltf.buffers() {
@@ -81,14 +85,18 @@ impl<'a> Model<'a> {
             }
             buffers.push(data);
         }
-        Ok(Self { path, buffers })
+        Ok(Self {
+            path,
+            buffers,
+            textures: HashMap::new(),
+            model: Model::default(),
+        })
     }
 
     /// Of all nodes of the scene, each after the one above it.
-    fn parts(&self, gltf: &gltf::Gltf) -> Result<Vec<ModelPart>, String> {
+    fn read(mut self, gltf: &gltf::Gltf) -> Result<Model, String> {
         let scene = gltf.default_scene().or_else(|| gltf.scenes().next());
         let scene = scene.ok_or("has no scene: export one")?;
-        let mut parts = Vec::new();
         // A node with two parents would be met again and again: forty of them in a row a million million times.
         let mut is_met = vec![false; gltf.nodes().len()];
         let mut left: Vec<_> = scene.nodes().map(|node| (node, Mat4::IDENTITY)).collect();
@@ -101,52 +109,41 @@ impl<'a> Model<'a> {
                 ));
             }
             let place = above * Mat4::from_cols_array_2d(&node.transform().matrix());
-            self.add(&node, place, &mut parts)?;
+            self.add(&node, place)?;
             let first = left.len();
             left.extend(node.children().map(|child| (child, place)));
             left[first..].reverse();
         }
-        Ok(parts)
+        Ok(self.model)
     }
 
-    fn add(
-        &self,
-        node: &gltf::Node,
-        place: Mat4,
-        parts: &mut Vec<ModelPart>,
-    ) -> Result<(), String> {
+    fn add(&mut self, node: &gltf::Node, place: Mat4) -> Result<(), String> {
         let Some(mesh) = node.mesh() else {
             return Ok(());
         };
         let name = mesh.name().unwrap_or_default();
         for primitive in mesh.primitives() {
-            let mut crown = CrownMesh::default();
-            let index = crown.add_material(self.material(&primitive.material())?);
-            crown
-                .add_mesh(name, &self.mesh(name, &primitive)?, place, index)
-                .map_err(|error| error.to_string())?;
-            match crown.check() {
-                // Others may have some.
-                Ok(()) | Err(BakeError::NoTriangles | BakeError::NoArea) => {}
-                Err(error) => return Err(format!("mesh `{name}`: {error}")),
-            }
-            parts.push(ModelPart {
+            let material = primitive.material();
+            let part = ModelPart {
                 mesh: name.into(),
-                material: primitive.material().name().unwrap_or_default().into(),
-                crown,
-            });
+                material: material.name().unwrap_or_default().into(),
+                triangles: self.mesh(name, &primitive, place)?,
+                surface: self.surface(&material)?,
+            };
+            self.model.parts.push(part);
         }
         Ok(())
     }
 
-    fn material(&self, material: &gltf::Material) -> Result<CrownMaterial, String> {
+    fn surface(&mut self, material: &gltf::Material) -> Result<StandardMaterial, String> {
         let surface = material.pbr_metallic_roughness();
+        let [red, green, blue, alpha] = surface.base_color_factor();
         let transform = surface
             .base_color_texture()
             .and_then(|texture| texture.texture_transform());
-        Ok(CrownMaterial {
-            color: surface.base_color_factor(),
-            texture: self.texture(material)?,
+        Ok(StandardMaterial {
+            base_color: Color::linear_rgba(red, green, blue, alpha),
+            base_color_texture: self.texture(material)?,
             // Counter-clockwise as one sees the texture, whose v runs down.
             uv_transform: transform.map_or(Affine2::IDENTITY, |transform| {
                 Affine2::from_scale_angle_translation(
@@ -155,12 +152,14 @@ impl<'a> Model<'a> {
                     transform.offset().into(),
                 )
             }),
-            opaque: material.alpha_mode() == AlphaMode::Opaque,
-            cutoff: match material.alpha_mode() {
-                AlphaMode::Mask => material.alpha_cutoff().unwrap_or(0.5),
-                _ => 0.0,
+            alpha_mode: match material.alpha_mode() {
+                gltf::material::AlphaMode::Opaque => AlphaMode::Opaque,
+                gltf::material::AlphaMode::Mask => {
+                    AlphaMode::Mask(material.alpha_cutoff().unwrap_or(0.5))
+                }
+                gltf::material::AlphaMode::Blend => AlphaMode::Blend,
             },
-            ..CrownMaterial::default()
+            ..StandardMaterial::default()
         })
     }
 }

@@ -55,23 +55,24 @@ fn models_are_read_from_gltf_or_refused_by_name() {
         std::fs::write(&path, bytes).expect("the model can be written");
         load_model(&path)
     };
-    let parts = read(&whole).expect("a triangle");
-    let [part] = parts.as_slice() else {
-        panic!("{parts:?}")
+    let model = read(&whole).expect("a triangle");
+    let [part] = model.parts.as_slice() else {
+        panic!("{model:?}")
     };
     assert_eq!(
         (part.mesh.as_str(), part.material.as_str()),
         ("twig", "leaf")
     );
-    let triangle = part.crown.triangles[0];
+    let crown = model.crown(|_| true).expect("the triangle is near");
+    let triangle = crown.triangles[0];
     assert_eq!(
         triangle.positions(),
         [Vec3::X * 2.0, Vec3::X * 3.0, Vec3::new(2.0, 1.0, 0.0)]
     );
     assert_eq!(triangle.vertices[0].normal.normalize(), Vec3::Z);
-    assert_eq!(part.crown.materials[0].color, [1.0, 0.0, 0.0, 1.0]);
+    assert_eq!(crown.materials[0].color, [1.0, 0.0, 0.0, 1.0]);
     // A quarter turn, counter-clockwise where v runs down: from u to -v.
-    let uv = part.crown.materials[0]
+    let uv = crown.materials[0]
         .uv_transform
         .transform_point2(Vec2::new(1.0, 0.0));
     assert!(uv.distance(Vec2::new(0.5, -0.25)) < 1e-6, "{uv}");
@@ -92,8 +93,13 @@ fn models_are_read_from_gltf_or_refused_by_name() {
         ),
         (
             glb(TWIG, [f32::NAN, 0.0, 0.0], [0, 1, 2]),
-            "`twig`: triangle 0: position",
+            "`twig`: the positions of vertex 0 are not finite",
         ),
+        (
+            with(r#","TEXCOORD_0":2"#, ""),
+            "`twig` has a texture, but no texture coordinates",
+        ),
+        (with(node, r#""nodes":[{}]"#), "has no triangles"),
         (
             with(r#""mode":4"#, r#""mode":5"#),
             "`twig` is not a list of triangles",

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod lighting;
+mod models;
 mod passes;
 mod selection;
 mod skinned;
