@@ -171,17 +171,23 @@ impl ReferenceVolume {
     /// Whether a voxel is opaque.
     ///
     /// # Panics
-    /// If it lies outside the volume, as all that is given coordinates here.
+    /// If its [index](Self::index) is beyond the last voxel. Outside along u or v another voxel may be meant.
     pub fn is_opaque(&self, x: u32, y: u32, z: u32) -> bool {
         self.colors[self.index(x, y, z)][3] != 0
     }
 
     /// The colour of a voxel in sRGB, with alpha.
+    ///
+    /// # Panics
+    /// As [`is_opaque`](Self::is_opaque).
     pub fn color(&self, x: u32, y: u32, z: u32) -> [u8; 4] {
         self.colors[self.index(x, y, z)]
     }
 
     /// The unit normal of an opaque voxel in (u, v, w).
+    ///
+    /// # Panics
+    /// As [`is_opaque`](Self::is_opaque).
     pub fn normal(&self, x: u32, y: u32, z: u32) -> Vec3 {
         let [nx, ny, nz, _] = self.normals[self.index(x, y, z)];
         decode_normal([nx, ny, nz])

@@ -26,7 +26,9 @@ pub const ATTRIBUTE_HEIGHT_VECTOR: MeshVertexAttribute = MeshVertexAttribute::ne
 /// ([`ATTRIBUTE_HEIGHT_VECTOR`]), or its normals. The mesh must be kept in the main world (as by
 /// `RenderAssetUsages::default()`). It is drawn as ever, if it has a material; so give it the colour of the ground.
 ///
-/// Triangles without area, or whose height vectors lead through the surface, carry no texels.
+/// Triangles without area, there or in texture coordinates, and those with height vectors that are zero, lead through the
+/// surface or cross, carry no texels, with a warning that names the first. A mesh that has no texture coordinates, no
+/// triangles, or more of them than a storage buffer of the device holds (900,000 on any) carries none at all, with an error.
 ///
 /// ```
 /// # use bevy::prelude::*;
@@ -48,7 +50,8 @@ pub const ATTRIBUTE_HEIGHT_VECTOR: MeshVertexAttribute = MeshVertexAttribute::ne
 pub struct TexelSurface {
     /// What it is covered with.
     pub volume: Handle<TexelVolume>,
-    /// Length of the height vectors where the mesh has none, in the mesh's units.
+    /// Length of the height vectors where the mesh has none, in the mesh's units. Where it is not finite and above 0 the mesh
+    /// carries no texels, with an error, even if it has height vectors.
     pub thickness: f32,
 }
 
@@ -73,6 +76,9 @@ impl TexelSurface {
 
 /// Height vectors of one [`TexelSurface`], one for each vertex of its mesh, in the mesh's space: they take the place of
 /// those of the mesh. Change them to move the texels, as a hand does that strokes fur; they are uploaded in the same frame.
+///
+/// If there are none, they follow the normals, [`thickness`](TexelSurface::thickness) long, whatever the mesh has; with any
+/// other number than that of its vertices the surface carries no texels, or those of a skin stay as they were, with an error.
 #[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct TexelHeights(pub Vec<Vec3>);
@@ -120,21 +126,26 @@ pub struct TexelSettings {
     /// nearly those of as many times more slices, outlines stay. From 1, the slice alone, to 16, rounded down to a power of two;
     /// others are taken for the nearest. Each doubling costs one look into a texture for a pixel.
     pub inner_slices: u32,
-    /// The most slices a texel in any direction, rounded down to a power of two. Memory grows with it.
+    /// The most slices a texel in any direction, rounded down to a power of two; 0 is taken for 1. Memory grows with it. A
+    /// device has at most half as many as it has layers of a texture array; where that is fewer than the volume has voxels and
+    /// than are asked for, a warning names the volume.
     pub most_slices: u32,
     /// Whether counts and directions of slices fade into one another, pixel by pixel, as the view changes; else they pop.
     pub fade: bool,
     /// What lights the texels; [`Unlit`](PlantLighting::Unlit) ones have the colours of the volume.
     pub lighting: PlantLighting,
-    /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it.
+    /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it. What
+    /// is below or above is taken for the nearest, and no number for 0.
     pub roughness: f32,
-    /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it.
+    /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it. What is below
+    /// or above is taken for the nearest, and no number for 0.
     pub reflectance: f32,
     /// Share of the light that comes through from behind, 0 to 1, as of Bevy's `StandardMaterial`: 0 is solid, 0.5 is grass and
     /// leaves, which look alike from both sides. What is below or above is taken for the nearest, and no number for 0.
     pub diffuse_transmission: f32,
     /// How far the top moves in the [`Wind`](crate::wind::Wind), in heights, for each metre a second: 0 is stiff, 0.03 is
-    /// grass. Height vectors bend, and keep their length.
+    /// grass. Height vectors bend, and keep their length. What is no finite number is taken for 0. Facets of which the wind
+    /// leads one through the surface, or across another, are not drawn as long as it does.
     pub flexibility: f32,
     /// Whether slices that show nothing are drawn all the same, for comparison.
     #[doc(hidden)]
@@ -153,6 +164,15 @@ impl TexelSettings {
     pub(crate) fn inner_slices(&self, count: u32, most: u32) -> u32 {
         let inner = self.inner_slices.clamp(1, MOST_INNER_SLICES);
         (most / count).clamp(1, 1 << inner.ilog2())
+    }
+
+    /// [`flexibility`](Self::flexibility), of which what is no finite number is none.
+    pub(crate) fn limited_flexibility(&self) -> f32 {
+        if self.flexibility.is_finite() {
+            self.flexibility
+        } else {
+            0.0
+        }
     }
 
     /// How far above a place that is seen light falls on it, or solids would shade themselves in specks. So far it may be from the
@@ -194,6 +214,17 @@ mod tests {
     use bevy::asset::uuid::Uuid;
 
     use super::*;
+
+    #[test]
+    fn texels_that_bend_by_no_number_stand_still() {
+        for (flexibility, expected) in [(0.03, 0.03), (f32::NAN, 0.0), (f32::INFINITY, 0.0)] {
+            let settings = TexelSettings {
+                flexibility,
+                ..default()
+            };
+            assert_eq!(settings.limited_flexibility(), expected, "{flexibility}");
+        }
+    }
 
     #[test]
     fn volumes_come_one_after_the_other_and_again() {

@@ -35,11 +35,13 @@ pub(crate) struct TexelsUniform {
 
 impl TexelsUniform {
     pub(crate) fn new(measure: &VolumeMeasure, settings: &TexelSettings, wind: Vec3) -> Self {
+        // What is no number is none.
+        let share = |asked: f32| asked.clamp(0.0, 1.0).max(0.0);
         Self {
             lengths: measure.lengths,
-            roughness: settings.roughness,
-            wind: wind.extend(settings.flexibility),
-            reflectance: settings.reflectance,
+            roughness: share(settings.roughness),
+            wind: wind.extend(settings.limited_flexibility()),
+            reflectance: share(settings.reflectance),
             inner_slices: settings.inner_slices(1, u32::MAX),
             diffuse_transmission: limited_transmission(settings.diffuse_transmission),
         }

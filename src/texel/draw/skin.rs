@@ -151,7 +151,7 @@ pub(crate) fn follow_skins(
                 let Some(geometry) = posed else {
                     continue;
                 };
-                let bounds = geometry.bounds_in_wind(settings.flexibility);
+                let bounds = geometry.bounds_in_wind(settings.limited_flexibility());
                 if source.follow(&geometry.facets, bounds) {
                     for child in source.slices {
                         if let Ok(mut seen) = slices.get_mut(child) {

@@ -155,7 +155,7 @@ pub(crate) fn attach(
             }
             Drawn::Slices(geometry, volume, materials) => (geometry, volume, materials),
         };
-        let bounds = geometry.bounds_in_wind(settings.flexibility);
+        let bounds = geometry.bounds_in_wind(settings.limited_flexibility());
         let slices = if let Some(drawn) = drawn {
             for (child, material) in drawn.slices.iter().zip(materials) {
                 if let Ok((mut used, mut seen)) = slices.get_mut(*child) {
