@@ -123,6 +123,7 @@ impl SliceSource {
         };
         // Shadows are not seen to pop, and stay whole.
         let fades = settings.fade && !from.is_light;
+        let flexibility = settings.limited_flexibility();
         order.clear();
         order.extend((0u32..).zip(&*self.facets).map(|(index, facet)| {
             let at = eye_from_local.transform_point3(facet.positions[0]);
@@ -139,14 +140,22 @@ impl SliceSource {
                 .positions
                 .map(|at| eye_from_local.transform_point3(at));
             let heights = facet.heights.map(|h| eye_from_local.transform_vector3(h));
+            let straight = Facet {
+                positions,
+                heights,
+                uvs: facet.uvs,
+            };
             let bent = |i: usize| {
                 let foot = positions[i] + from.eye;
-                bend(foot, heights[i], from.wind, settings.flexibility, from.time)
+                bend(foot, heights[i], from.wind, flexibility, from.time)
             };
+            let heights = [0, 1, 2].map(bent);
+            if heights != straight.heights && !straight.may_bend_to(heights) {
+                continue;
+            }
             let facet = Facet {
-                positions,
-                heights: [0, 1, 2].map(bent),
-                uvs: facet.uvs,
+                heights,
+                ..straight
             };
             let chosen = choose_fading(&facet, &self.volume.measure, &from.view, &quality);
             for slices in chosen.into_iter().flatten() {

@@ -130,6 +130,15 @@ impl Facet {
         Ok(())
     }
 
+    /// Whether it carries texels with other height vectors too, as in the wind, if it does with its own: none leads through
+    /// the surface, and none cross. In a mirrored space as well, where texels are on the back.
+    pub(crate) fn may_bend_to(&self, heights: [Vec3; 3]) -> bool {
+        let normal = doubled_area(self.corners(0.0));
+        let side = self.heights[0].dot(normal).signum();
+        let stays = heights.iter().all(|h| h.dot(normal) * side > 0.0);
+        stays && Self { heights, ..*self }.least_area(normal) > 0.0
+    }
+
     /// The least area that the triangle has at any height, seen along the normal, times twice the length of that. At the
     /// top alone vectors that meet half way would go unseen: beyond, all three corners have changed sides, and the area
     /// is positive again.

@@ -238,6 +238,47 @@ fn facets_that_carry_no_texels_are_told_apart() {
 }
 
 #[test]
+fn wind_that_leads_a_height_vector_through_its_facet_is_found_in_mirrored_spaces_too() {
+    let leaning = Facet {
+        positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
+        heights: [Vec3::new(0.6, 0.0, 0.3); 3],
+        ..facet()
+    };
+    assert_eq!(leaning.check(), Ok(()));
+    let bent = |facet: &Facet, wind: Vec3| {
+        [0, 1, 2].map(|i| bend(facet.positions[i], facet.heights[i], wind, 0.1, 0.0))
+    };
+    // Blown from above, it goes through the surface.
+    for (wind, expected) in [
+        (Vec3::X, true),
+        (Vec3::Z * 20.0, true),
+        (Vec3::Z * -20.0, false),
+    ] {
+        assert_eq!(
+            leaning.may_bend_to(bent(&leaning, wind)),
+            expected,
+            "{wind}"
+        );
+        let mirror = |at: Vec3| at * Vec3::new(1.0, 1.0, -1.0);
+        let mirrored = Facet {
+            positions: leaning.positions.map(mirror),
+            heights: leaning.heights.map(mirror),
+            ..leaning
+        };
+        assert_eq!(
+            mirrored.may_bend_to(bent(&mirrored, mirror(wind))),
+            expected,
+            "{wind}"
+        );
+    }
+    let crossed = leaning
+        .positions
+        .map(|at| Vec3::new(0.3 - 2.0 * at.x, 0.0, 1.0));
+    assert!(!leaning.may_bend_to(crossed));
+    assert!(!leaning.may_bend_to([Vec3::NAN; 3]));
+}
+
+#[test]
 fn the_sphere_holds_the_whole_prism() {
     let facet = facet();
     let (centre, radius) = facet.bounds();

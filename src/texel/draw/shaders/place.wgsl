@@ -91,8 +91,8 @@ fn facet_from_eye(index: u32, turn: mat3x3<f32>, origin: vec3<f32>) -> Facet {
     );
 }
 
-// A height vector in the wind: as long as it was. It keeps what it has of the way up, so that it never leads through the
-// surface.
+// A height vector in the wind: as long as it was. It moves across itself, and turns by less than a right angle. One that leans
+// may be led through the surface so, or across another: facets of which one is have no slices (source.rs).
 fn bend(foot: vec3<f32>, height: vec3<f32>) -> vec3<f32> {
     if texels.wind.w == 0.0 || all(texels.wind.xyz == vec3(0.0)) {
         return height;
