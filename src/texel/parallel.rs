@@ -6,6 +6,10 @@ use std::thread;
 
 /// How many threads work at once.
 fn cores() -> usize {
+    #[cfg(test)]
+    if let Some(threads) = tests::THREADS.get() {
+        return threads;
+    }
     thread::available_parallelism().map_or(1, NonZero::get)
 }
 
@@ -43,8 +47,32 @@ pub(super) fn map<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Ve
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
+    use std::cell::Cell;
+
     use super::*;
+
+    thread_local! {
+        /// How many threads the work that this one begins has, in place of as many as there are cores.
+        pub(super) static THREADS: Cell<Option<usize>> = const { Cell::new(None) };
+    }
+
+    /// Begins work with so many threads.
+    pub(in super::super) fn with_threads<T>(threads: usize, work: impl FnOnce() -> T) -> T {
+        THREADS.set(Some(threads));
+        let result = work();
+        THREADS.set(None);
+        result
+    }
+
+    #[test]
+    fn as_many_threads_work_as_there_are_said_to_be() {
+        for threads in [1, 3, 7] {
+            let meet = std::sync::Barrier::new(threads);
+            // Each waits for all others, so that none could do another's work.
+            with_threads(threads, || map(threads, |_| meet.wait()));
+        }
+    }
 
     #[test]
     fn every_chunk_is_worked_on_once_and_knows_its_place() {

@@ -11,7 +11,7 @@ use super::super::parallel;
 use super::draft::{Cell, Draft, Mark};
 
 /// The four neighbour columns.
-const SIDES: [[i32; 3]; 4] = [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0]];
+pub(super) const SIDES: [[i32; 3]; 4] = [[-1, 0, 0], [1, 0, 0], [0, -1, 0], [0, 1, 0]];
 
 /// Colours all exposed voxels that have a colour above or below to take, and returns their number.
 pub(super) fn close(draft: &mut Draft) -> usize {

@@ -2,6 +2,7 @@
 
 use bevy::math::{UVec2, UVec3, Vec3};
 
+use super::super::super::parallel::tests::with_threads;
 use super::*;
 
 fn cubes(size: UVec3, topology: Topology) -> VolumeSettings {
@@ -92,10 +93,19 @@ fn steps_of_a_height_field_are_closed_by_colours_between() {
 #[test]
 fn every_thread_count_gives_the_same_bytes() {
     let settings = cubes(UVec3::new(32, 32, 16), Topology::Tiling);
-    let build = || from_height_field(&hill(32), &settings, &silent).unwrap();
-    let first = build();
-    for _ in 0..4 {
-        assert_eq!(build(), first);
+    let build = |threads| {
+        with_threads(threads, || {
+            let field = from_height_field(&hill(32), &settings, &silent);
+            let function = from_implicit(|at| 1.5 - at.z, |at| at, &settings, &silent);
+            let solid = ball(Vec3::new(15.0, 16.0, 8.0), 6.5, 9);
+            let size = ShapeSettings::new(UVec3::splat(32));
+            let shape = from_shape(&solid, &size, &silent);
+            [field, function, shape].map(Result::unwrap)
+        })
+    };
+    let alone = build(1);
+    for threads in [2, 3, 8, 40] {
+        assert_eq!(build(threads), alone, "{threads} threads");
     }
 }
 

@@ -1,10 +1,10 @@
 //! Triangles become solids.
 
-use bevy::math::{UVec3, Vec3};
+use bevy::math::{DVec3, UVec3, Vec3};
 use proptest::prelude::*;
 
 use super::super::super::error::TexelError;
-use super::super::close::close;
+use super::super::close::{SIDES, close};
 use super::super::draft::{Draft, Mark};
 use super::super::inside::{mark_by_flood, mark_by_parity};
 use super::super::rasterise::rasterise;
@@ -236,6 +236,13 @@ proptest! {
         mark_by_parity(&mut draft);
         let before = draft.clone();
         close(&mut draft);
+        let layer = draft.layer();
+        for (index, (cell, before)) in draft.cells.iter().zip(&before.cells).enumerate() {
+            let at = [index % 16, index / 16 % 16, index / layer].map(|at| at as u32);
+            let is_exposed = cell.mark == Mark::Inside && touches_empty(&draft, at, &SIDES);
+            prop_assert!(!is_exposed, "{at:?}");
+            prop_assert_eq!(cell.mark == Mark::Empty, before.mark == Mark::Empty, "{:?}", at);
+        }
         spread(&mut draft, Spreading::Volume, &silent);
         for (index, (cell, before)) in draft.cells.iter().zip(&before.cells).enumerate() {
             prop_assert_eq!(cell.mark == Mark::Empty, before.mark == Mark::Empty, "{}", index);
@@ -252,12 +259,14 @@ proptest! {
             prop_assert_eq!(built, Err(TexelError::Empty));
             return Ok(());
         };
-        let low = shape.positions.iter().fold(Vec3::INFINITY, |low, p| low.min(*p)).floor();
-        let high = shape.positions.iter().fold(Vec3::NEG_INFINITY, |high, p| high.max(*p)).floor();
+        // Gaps that no voxel fits through are filled: what is as far as its diagonal from all solids is not in one.
+        let diagonal = 3f64.sqrt();
         for (x, y, z) in (0..4096).map(|i| (i % 16, i / 16 % 16, i / 256)) {
             if volume.is_opaque(x, y, z) {
-                let at = UVec3::new(x, y, z).as_vec3();
-                prop_assert!(at.cmpge(low).all() && at.cmple(high).all(), "{}", at);
+                let centre = UVec3::new(x, y, z).as_dvec3() + 0.5;
+                let is_inside = winding_number(&shape, centre).abs() > 0.5;
+                let distance = distance(&shape, centre);
+                prop_assert!(is_inside || distance < diagonal, "{}: {} away", centre, distance);
             }
         }
     }
@@ -278,7 +287,7 @@ proptest! {
 
 /// How often the surface winds round a point: the sum of the solid angles of its triangles over 4π (A. van Oosterom and
 /// J. Strackee, *The Solid Angle of a Plane Triangle*, 1983).
-fn winding_number(shape: &Shape, at: bevy::math::DVec3) -> f64 {
+fn winding_number(shape: &Shape, at: DVec3) -> f64 {
     let solid_angle = |triangle: &[u32; 3]| {
         let [a, b, c] = triangle.map(|i| shape.positions[i as usize].as_dvec3() - at);
         let (x, y, z) = (a.length(), b.length(), c.length());
@@ -286,4 +295,26 @@ fn winding_number(shape: &Shape, at: bevy::math::DVec3) -> f64 {
         2.0 * volume.atan2(x * y * z + a.dot(b) * z + a.dot(c) * y + b.dot(c) * x)
     };
     shape.triangles.iter().map(solid_angle).sum::<f64>() / (4.0 * core::f64::consts::PI)
+}
+
+/// How far a place is from the surface.
+fn distance(shape: &Shape, at: DVec3) -> f64 {
+    let to_triangle = |triangle: &[u32; 3]| {
+        let [a, b, c] = triangle.map(|i| shape.positions[i as usize].as_dvec3());
+        let normal = (b - a).cross(c - a);
+        let sides = [(a, b), (b, c), (c, a)];
+        let is_over =
+            |&(from, to): &(DVec3, DVec3)| (to - from).cross(at - from).dot(normal) >= 0.0;
+        if normal != DVec3::ZERO && sides.iter().all(is_over) {
+            return (at - a).dot(normal.normalize()).abs();
+        }
+        let to_side = |(from, to): (DVec3, DVec3)| {
+            let along = to - from;
+            let share = (at - from).dot(along) / along.length_squared().max(1e-30);
+            at.distance(from + along * share.clamp(0.0, 1.0))
+        };
+        sides.map(to_side).into_iter().fold(f64::INFINITY, f64::min)
+    };
+    let distances = shape.triangles.iter().map(to_triangle);
+    distances.fold(f64::INFINITY, f64::min)
 }
