@@ -68,7 +68,7 @@ struct Output {
     /// Lengths of the box along u, v and w in metres; those of a pattern are its own.
     #[arg(long, value_parser = parse_vec3, global = true)]
     lengths: Option<Vec3>,
-    /// The shape keeps away from the sides; images and heights tile otherwise.
+    /// The shape keeps away from the sides; images and heights tile otherwise. Patterns have sides of their own.
     #[arg(long, global = true)]
     isolated: bool,
     /// Colours spread within slices along w only, as in the paper.
@@ -132,7 +132,42 @@ fn main() -> std::process::ExitCode {
     }
 }
 
-fn bake(Cli { source, output }: &Cli) -> Result<(), String> {
+/// Refuses options that would not be heeded.
+fn check(Cli { source, output }: &Cli) -> Result<(), String> {
+    let (what, unheeded) = match source {
+        Source::Pattern(_) => (
+            String::from("a pattern has lengths and sides of its own"),
+            vec![
+                ("--lengths", output.lengths.is_some()),
+                ("--isolated", output.isolated),
+            ],
+        ),
+        Source::Height { .. } => return Ok(()),
+        Source::Images { files } => (
+            format!("{}: images are opaque where they are", files[0].display()),
+            vec![("--within-slices", output.within_slices)],
+        ),
+        Source::Show { file } => (
+            format!("{}: a volume is shown as it was baked", file.display()),
+            vec![
+                ("--size", output.size.is_some()),
+                ("--lengths", output.lengths.is_some()),
+                ("--isolated", output.isolated),
+                ("--within-slices", output.within_slices),
+            ],
+        ),
+    };
+    let given = unheeded.into_iter().filter(|(_, is_given)| *is_given);
+    let given: Vec<&str> = given.map(|(name, _)| name).collect();
+    if given.is_empty() {
+        return Ok(());
+    }
+    Err(format!("{what}: leave out {}", given.join(" and ")))
+}
+
+fn bake(cli: &Cli) -> Result<(), String> {
+    check(cli)?;
+    let Cli { source, output } = cli;
     let start = Instant::now();
     let volume = match source {
         Source::Show { file } => load(file, &silent).map_err(|error| error.to_string())?,
@@ -192,9 +227,6 @@ fn built(source: &Source, output: &Output, progress: Progress) -> Result<Built, 
         Source::Images { files } => return sources::images(files, output, progress),
         Source::Show { .. } => return Err("there is nothing to build".into()),
     };
-    if output.lengths.is_some() {
-        return Err("the lengths of a pattern are its own: leave out --lengths".into());
-    }
     let size = output.size.unwrap_or(pattern.size());
     pattern
         .build(size, output.spreading(), progress)

@@ -49,8 +49,9 @@ pub fn height(
         if [image.width(), image.height()] != size.to_array() {
             let (width, height) = image.dimensions();
             return Err(format!(
-                "{}: is {width}x{height}, where heights are {}x{}",
+                "{}: is {width}x{height} pixels, where the heights of {} are {}x{}: scale one of them",
                 path.display(),
+                file.display(),
                 size.x,
                 size.y
             ));
@@ -83,13 +84,23 @@ pub fn images(files: &[PathBuf], output: &Output, progress: Progress) -> Result<
         ));
     }
     let size = UVec2::from_array(images[0].size);
-    let built = from_images(
-        &images,
-        &settings(size, files.len() as u32, output),
-        progress,
-    );
-    built.map_err(|error| match error {
-        TexelError::ImageSize { image, .. } => format!("{}: {error}", files[image].display()),
-        _ => format!("{} images: {error}", files.len()),
+    let settings = settings(size, files.len() as u32, output);
+    let built = from_images(&images, &settings, progress);
+    built.map_err(|error| {
+        // The one that differs, the first that is too much, or the first.
+        let (file, fix) = match error {
+            TexelError::ImageSize { image, .. } => (image, ""),
+            TexelError::Count { what: "images", .. } => (
+                settings.size.z as usize,
+                ", or leave out --size, of which the last number is theirs",
+            ),
+            _ => (0, ""),
+        };
+        let file = files.get(file).unwrap_or(&files[0]);
+        format!(
+            "{} (of {} images): {error}{fix}",
+            file.display(),
+            files.len()
+        )
     })
 }
