@@ -119,6 +119,14 @@ pub enum TexelError {
         /// How many there are.
         count: usize,
     },
+    /// A paint's colour, or the alpha of its holes, is no number.
+    #[error("the {what} of paint {paint} is not finite: correct it, 0 to 1 is usual")]
+    PaintNotFinite {
+        /// Which paint.
+        paint: usize,
+        /// What of it.
+        what: &'static str,
+    },
     /// A texture's pixels don't fit its size.
     #[error(
         "the texture of paint {paint} has {found} pixels where its size asks for {expected}: correct its size"
@@ -181,6 +189,18 @@ pub enum TexelError {
         /// What it is.
         height: f32,
     },
+    /// A normal of a height field is no number.
+    #[error(
+        "the normal of pixel ({x}, {y}) is {normal}: make it finite, or leave normals out to have them taken from heights"
+    )]
+    HeightNormal {
+        /// Column.
+        x: u32,
+        /// Row.
+        y: u32,
+        /// What it is.
+        normal: Vec3,
+    },
     /// A function of space is no number.
     #[error("the function is {value} at {at}: make it finite everywhere in the volume")]
     FunctionNotFinite {
@@ -188,6 +208,14 @@ pub enum TexelError {
         at: Vec3,
         /// What it is there.
         value: f32,
+    },
+    /// The colour of a place is no number.
+    #[error("the colour is {color} at {at}: make it finite wherever the volume is opaque")]
+    ColorNotFinite {
+        /// Where, from 0 to 1 along u, v and w.
+        at: Vec3,
+        /// What it is there.
+        color: Vec3,
     },
     /// Images of a stack differ in size.
     #[error(

@@ -36,6 +36,12 @@ pub enum ShapeMeshError {
         "the base colour texture cannot be read ({0}): use an uncompressed image that is kept in the main world"
     )]
     Texture(#[from] TextureAccessError),
+    /// The shape has as many paints as its triangles can name.
+    #[error(
+        "the shape has {0} paints already, one for each mesh that was added: merge meshes of one material before, or build \
+         several volumes"
+    )]
+    TooManyPaints(usize),
 }
 
 impl Shape {
@@ -46,8 +52,8 @@ impl Shape {
     /// Vertex colours, if the mesh has them, multiply the material's.
     ///
     /// # Errors
-    /// When the mesh is no surface or not readable, or the texture is not. Indices out of range are found when the
-    /// shape is built.
+    /// When the mesh is no surface or not readable, or the texture is not, or the shape has 65,536 paints already; the shape
+    /// stays as it was. Indices out of range are found when the shape is built.
     pub fn add_mesh(
         &mut self,
         mesh: &Mesh,
@@ -56,6 +62,10 @@ impl Shape {
     ) -> Result<(), ShapeMeshError> {
         let added = read(mesh, material)?;
         let paint = paint(material, images)?;
+        // Triangles name paints by 16 bits.
+        if self.paints.len() > usize::from(u16::MAX) {
+            return Err(ShapeMeshError::TooManyPaints(self.paints.len()));
+        }
         let first = self.positions.len() as u32;
         self.complete();
         self.paint_of
@@ -287,6 +297,24 @@ mod tests {
         assert!(paint_with(0, AlphaMode::Opaque) == paint_with(255, AlphaMode::Opaque));
         let mask = AlphaMode::Mask(0.5);
         assert!(paint_with(0, mask) != paint_with(255, mask));
+    }
+
+    #[test]
+    fn a_shape_takes_as_many_meshes_as_its_triangles_can_name() {
+        let mut shape = Shape {
+            paints: vec![Paint::default(); 65_535],
+            ..Shape::default()
+        };
+        let mesh = Mesh::from(Cuboid::default());
+        let mut add = || shape.add_mesh(&mesh, &red(), &Assets::default());
+        add().expect("the last that there is a number for");
+        let message = add().unwrap_err().to_string();
+        assert!(
+            message.contains("65536 paints") && message.contains("merge"),
+            "{message}"
+        );
+        assert_eq!(shape.paint_of, [u16::MAX; 12]);
+        assert_eq!((shape.paints.len(), shape.triangles.len()), (65_536, 12));
     }
 
     #[test]

@@ -18,7 +18,7 @@ use super::{BuildReport, Built, VolumeSettings};
 /// Colours are linear. A function that is to tile repeats with 1 along u and v.
 ///
 /// # Errors
-/// When the function is no number somewhere, or the volume is refused
+/// When the function is no number somewhere, a colour is not finite where it is opaque, or the volume is refused
 /// (see [`ReferenceVolume`](super::super::ReferenceVolume)).
 pub fn from_implicit(
     function: impl Fn(Vec3) -> f32 + Sync,
@@ -58,11 +58,11 @@ fn evaluate(
     let size = draft.size;
     let layer = draft.layer();
     let failure: Mutex<Option<(usize, TexelError)>> = Mutex::new(None);
-    let fail = |index: usize, at: Vec3, value: f32| {
+    let fail = |index: usize, error: TexelError| {
         let mut failure = failure.lock().expect("nothing here panics");
         // The first place in order, whichever thread was first.
         if failure.as_ref().is_none_or(|(first, _)| index < *first) {
-            *failure = Some((index, TexelError::FunctionNotFinite { at, value }));
+            *failure = Some((index, error));
         }
     };
     let step = Vec3::ONE / size.as_vec3();
@@ -73,7 +73,7 @@ fn evaluate(
             let at = (Vec3::new(x as f32, y as f32, z as f32) + 0.5) * step;
             let value = function(at);
             if value.is_nan() {
-                fail(z * layer + i, at, value);
+                fail(z * layer + i, TexelError::FunctionNotFinite { at, value });
             }
             if value > threshold {
                 let slope = |axis: Vec3| {
@@ -82,7 +82,11 @@ fn evaluate(
                     (function(at - half) - function(at + half)) / metres
                 };
                 let normal = Vec3::new(slope(Vec3::X), slope(Vec3::Y), slope(Vec3::Z));
-                *cell = Cell::coloured(color(at), normal);
+                let color = color(at);
+                if !color.is_finite() {
+                    fail(z * layer + i, TexelError::ColorNotFinite { at, color });
+                }
+                *cell = Cell::coloured(color, normal);
             }
         }
         // Slices are not done in order.

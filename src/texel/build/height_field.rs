@@ -76,7 +76,7 @@ impl HeightField {
 /// leaves the column empty. Errors of height are at most half a slice, and heights lower than a slice one slice.
 ///
 /// # Errors
-/// When lists and sizes don't agree, a height is no number, or the volume is refused
+/// When lists and sizes don't agree, a height or a normal is no number, or the volume is refused
 /// (see [`ReferenceVolume`](super::super::ReferenceVolume)): an isolated field is 0 along its border.
 pub fn from_height_field(
     field: &HeightField,
@@ -135,12 +135,17 @@ fn check(field: &HeightField, settings: &VolumeSettings) -> Result<(), TexelErro
             });
         }
     }
-    match field.heights.iter().position(|height| height.is_nan()) {
-        Some(index) => Err(TexelError::Height {
-            x: index as u32 % field.size.x,
-            y: index as u32 / field.size.x,
-            height: field.heights[index],
-        }),
+    let pixel = |index: usize| (index as u32 % field.size.x, index as u32 / field.size.x);
+    if let Some(index) = field.heights.iter().position(|height| height.is_nan()) {
+        let ((x, y), height) = (pixel(index), field.heights[index]);
+        return Err(TexelError::Height { x, y, height });
+    }
+    let mut normals = field.normals.iter().flatten().enumerate();
+    match normals.find(|(_, normal)| !normal.is_finite()) {
+        Some((index, &normal)) => {
+            let (x, y) = pixel(index);
+            Err(TexelError::HeightNormal { x, y, normal })
+        }
         None => Ok(()),
     }
 }

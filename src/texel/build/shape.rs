@@ -149,6 +149,14 @@ impl Shape {
             }
         }
         for (paint, kind) in self.paints.iter().enumerate() {
+            for (what, is_finite) in [
+                ("colour", kind.color.is_finite()),
+                ("alpha_cutoff", kind.alpha_cutoff.is_finite()),
+            ] {
+                if !is_finite {
+                    return Err(TexelError::PaintNotFinite { paint, what });
+                }
+            }
             if let Some(texture) = &kind.texture {
                 let [found, expected] = texture.counts;
                 if found != expected || expected == 0 {

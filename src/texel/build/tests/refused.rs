@@ -1,6 +1,6 @@
 //! What cannot be built is refused with a reason and a fix.
 
-use bevy::math::{UVec2, UVec3, Vec2, Vec3};
+use bevy::math::{UVec2, UVec3, Vec2, Vec3, Vec4};
 use proptest::prelude::*;
 
 use super::*;
@@ -52,6 +52,19 @@ fn broken_shapes_are_named_by_triangle_and_vertex() {
         texture: Some(PaintTexture::new(size, &[[255; 4]])),
         ..Paint::default()
     };
+    let colored = |red: f32, alpha_cutoff: f32| Paint {
+        color: Vec4::new(red, 0.5, 0.5, 1.0),
+        alpha_cutoff,
+        texture: None,
+    };
+    for (paint, what) in [
+        (colored(f32::NAN, 0.5), "colour of paint 1"),
+        (colored(0.5, f32::NAN), "alpha_cutoff of paint 1"),
+        (colored(0.5, f32::INFINITY), "alpha_cutoff of paint 1"),
+    ] {
+        let message = with(&|s| s.paints = vec![Paint::default(), paint.clone()]);
+        assert_says(&message, &[what, "not finite", "correct it"]);
+    }
     assert_says(
         &with(&|s| s.paints = vec![textured([1, 1])]),
         &["triangle 0 has a texture", "add UVs"],
@@ -135,6 +148,15 @@ fn height_fields_images_and_functions_are_checked() {
         &with(&|f| f.heights[6] = f32::NAN),
         &["pixel (2, 1) is NaN"],
     );
+    let broken = |f: &mut HeightField| {
+        let mut normals = vec![Vec3::Z; 16];
+        normals[7].x = f32::INFINITY;
+        f.normals = Some(normals);
+    };
+    assert_says(
+        &with(&broken),
+        &["normal of pixel (3, 1) is [inf, 0, 1]", "make it finite"],
+    );
     assert_says(&with(&|f| f.colors.truncate(3)), &["3 colours, where 16"]);
     assert_says(&with(&|f| f.heights.fill(-1.0)), &["no voxel is opaque"]);
 
@@ -171,6 +193,28 @@ fn height_fields_images_and_functions_are_checked() {
         .unwrap_err()
         .to_string();
     assert_says(&message, &["NaN at [0.625, 0.125, 0.75]"]);
+    let color = |at: Vec3| {
+        if at.y > 0.5 {
+            Vec3::new(at.x, f32::NAN, 0.0)
+        } else {
+            at
+        }
+    };
+    let message = from_implicit(|_| 2.0, color, &settings, &silent)
+        .unwrap_err()
+        .to_string();
+    assert_says(
+        &message,
+        &[
+            "colour is [0.125, NaN, 0] at [0.125, 0.625, 0.25]",
+            "finite",
+        ],
+    );
+    let texture = |at: Vec3| (1.0, color(at));
+    let message = from_hypertexture(texture, &settings, &silent)
+        .unwrap_err()
+        .to_string();
+    assert_says(&message, &["at [0.125, 0.625, 0.25]"]);
 }
 
 /// Numbers of all kinds.
