@@ -9,6 +9,7 @@
 //! No job knows of another, and none depends on the number of threads: the same input bakes to the same bytes.
 
 pub(crate) mod color;
+mod derived;
 mod error;
 mod from_mesh;
 mod occlusion;
