@@ -21,6 +21,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod texture;
+mod to_mesh;
 
 use core::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Mutex;
