@@ -79,7 +79,7 @@ use bevy::render::storage::ShaderBuffer;
 use bevy::shader::load_shader_library;
 
 #[cfg(feature = "lab")]
-pub(crate) use bake::bake_towards;
+pub(crate) use bake::{bake_towards, bake_unchecked};
 pub use bake::{
     BakeError, BakeSettings, CrownMaterial, CrownMesh, CrownTexture, CrownTriangle, CrownVertex,
     Separation, bake, bake_with_progress, separate,

@@ -73,6 +73,17 @@ pub(crate) fn bake_towards(
     bake_shape(mesh, settings, directions, |_, _| {})
 }
 
+/// Bakes with settings that are not checked: in particular, with more pixels a side (a power of two) than a slicing may have.
+#[cfg(feature = "lab")]
+pub(crate) fn bake_unchecked(
+    mesh: &CrownMesh,
+    settings: &BakeSettings,
+) -> Result<Slicing, BakeError> {
+    mesh.check()?;
+    let (shape, color, normal) = layers(mesh, settings, settings.directions(), |_, _| {});
+    Ok(Slicing::trimmed(shape, color, normal))
+}
+
 fn bake_shape(
     mesh: &CrownMesh,
     settings: &BakeSettings,
@@ -81,6 +92,17 @@ fn bake_shape(
 ) -> Result<Slicing, BakeError> {
     mesh.check()?;
     settings.check()?;
+    let (shape, color, normal) = layers(mesh, settings, directions, progress);
+    Ok(Slicing::new(shape, color, normal).expect("the settings have been checked"))
+}
+
+/// The shape, and all layers' colours and normals.
+fn layers(
+    mesh: &CrownMesh,
+    settings: &BakeSettings,
+    directions: Vec<Vec3>,
+    progress: impl Fn(usize, usize) + Sync,
+) -> (SlicingShape, Vec<[u8; 4]>, Vec<[u8; 4]>) {
     let shape = shape(mesh, settings, directions);
     let share = settings.occlusion;
     let light: Vec<f32> = if share > 0.0 {
@@ -105,7 +127,7 @@ fn bake_shape(
         color.extend(colors);
         normal.extend(normals);
     }
-    Ok(Slicing::new(shape, color, normal).expect("the settings have been checked"))
+    (shape, color, normal)
 }
 
 /// Orientation, slice and number of slices of each layer.
