@@ -59,7 +59,7 @@ fn numbers(vertex: &CrownVertex, color: [f32; 4], triangle: &CrownTriangle) -> N
     let flat = (b - a).cross(c - a).normalize_or(Vec3::Y);
     let p = vertex.position;
     let n = vertex.normal.normalize_or(flat);
-    let [r, g, b, a] = core::array::from_fn(|i| vertex.color[i] * color[i]);
+    let [r, g, b, a]: [f32; 4] = core::array::from_fn(|i| vertex.color[i] * color[i]);
     let numbers = [
         p.x,
         p.y,
