@@ -18,6 +18,7 @@ mod light;
 mod modes;
 mod near;
 mod parts;
+mod pop;
 mod rivals;
 #[path = "../common/rosette.rs"]
 mod rosette;
@@ -51,7 +52,7 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 21] = [
+const EXPERIMENTS: [Experiment; 22] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
     ("slicing_switches", switches::error_against_cost),
@@ -65,6 +66,7 @@ const EXPERIMENTS: [Experiment; 21] = [
     ("slicing_compression", compression::against_distance),
     ("slicing_elevation", accuracy::against_elevation),
     ("slicing_discrepancy", discrepancy::against_angle),
+    ("slicing_pop", pop::on_an_orbit),
     ("slicing_brightness", brightness::against_background),
     ("slicing_light", light::against_distance),
     ("slicing_cover", light::cover_by_elevation),

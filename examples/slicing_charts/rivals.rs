@@ -12,6 +12,9 @@ use super::lab::{Drawn, Lab};
 /// Views along a side of the impostor's square: 64 pictures of the same pixels as the 63 slices of the slicing.
 const VIEWS: u32 = 8;
 
+/// Pixels along a side of each of two billboards: 2 × 1440² are 1.004 of 63 × 256².
+const BILLBOARD: u32 = 1440;
+
 /// The slicing of the defaults, its rivals, and slicings of one level of so many slices each.
 ///
 /// Two rivals have pictures from 31 directions round it or all over, of which the nearest two or three are blended. They stand
@@ -41,7 +44,7 @@ fn ways(lab: &mut Lab, levels: &[u32]) -> Result<Vec<(String, Drawn)>, String> {
         add_impostor(lab.studio.world(), &crown, VIEWS, 256).map_err(|error| error.to_string())?;
     ways.push(("octahedral impostor".to_string(), Drawn::Impostor(impostor)));
     let pair =
-        add_billboards(lab.studio.world(), &crown, 1024).map_err(|error| error.to_string())?;
+        add_billboards(lab.studio.world(), &crown, BILLBOARD).map_err(|error| error.to_string())?;
     ways.push(("billboards".to_string(), Drawn::Billboards(pair)));
     Ok(ways)
 }

@@ -1,5 +1,5 @@
 //! A rival of slicing: a crossed pair of billboards, baked from the same crown and made well: trimmed, with normals of the
-//! leaves, and with mip levels whose masks cover as much as the finest.
+//! leaves, and with mip levels whose masks cover as much as the finest. They are lit by the whole of Bevy's `StandardMaterial`.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::{Image, ImageSampler};
@@ -9,8 +9,10 @@ use bevy::pbr::StandardMaterial;
 use bevy::prelude::{AlphaMode, Assets, Handle, World};
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat};
 
+use crate::slicing::bake::color::{decode, encode, unorm};
 use crate::slicing::{
-    BakeError, BakeSettings, CrownMesh, Orientations, Slicing, SlicingShape, bake,
+    BakeError, BakeSettings, CrownMesh, MAX_PIXELS, Orientations, Slicing, SlicingShape,
+    bake_unchecked,
 };
 
 /// Alpha from which on a pixel of a billboard is there.
@@ -19,27 +21,31 @@ const MASK: f32 = 0.5;
 /// A flat picture of a crown: its mesh and its material.
 pub type Billboard = (Handle<Mesh>, Handle<StandardMaterial>);
 
-/// Bakes and adds a crossed pair of billboards of so many pixels a side.
+/// Bakes and adds a crossed pair of billboards of so many pixels a side, 16 to 2048. What is below or above is taken for the nearest.
 ///
 /// # Errors
-/// As [`bake()`] says.
+/// When the crown cannot be baked, as [`bake()`](crate::slicing::bake()) says.
 pub fn add_billboards(
     world: &mut World,
     crown: &CrownMesh,
     pixels: u32,
 ) -> Result<Vec<Billboard>, BakeError> {
+    let pixels = pixels.clamp(16, 2048);
+    let finer = pixels.next_power_of_two();
     let settings = BakeSettings {
         vertical: false,
+        // More pixels a side than slices may have are samples enough.
+        samples: if finer > MAX_PIXELS { 2 } else { 4 },
         ..BakeSettings::default()
             .with_slices(1)
-            .with_pixels(pixels)
+            .with_pixels(finer)
             .with_orientations(Orientations::Arc {
                 count: 2,
                 from: 0.0,
                 to: core::f32::consts::FRAC_PI_2,
             })
     };
-    let slicing = bake(crown, &settings)?;
+    let slicing = resized(bake_unchecked(crown, &settings)?, pixels);
     let [colors, normals] = slicing.texture_bytes();
     let length = colors.len() / slicing.shape().layers();
     let mut pair = Vec::new();
@@ -70,6 +76,71 @@ pub fn add_billboards(
         pair.push((mesh, material));
     }
     Ok(pair)
+}
+
+/// A slicing with pictures of another size, no larger: each pixel is the mean of those that it covers, by how much of them it does; of
+/// colours and normals by alpha too.
+fn resized(slicing: Slicing, side: u32) -> Slicing {
+    let from = slicing.shape().pixels;
+    if side == from {
+        return slicing;
+    }
+    let shares: Vec<_> = (0..side).map(|i| covered(i, side, from)).collect();
+    let (mut colors, mut normals) = (Vec::new(), Vec::new());
+    for layer in 0..slicing.shape().layers() {
+        let (color, normal) = (slicing.color(layer), slicing.normal(layer));
+        for (rows, columns) in shares
+            .iter()
+            .flat_map(|y| shares.iter().map(move |x| (y, x)))
+        {
+            let places = rows.iter().flat_map(|(y, tall)| {
+                let row = *y * from as usize;
+                columns.iter().map(move |(x, wide)| (row + *x, tall * wide))
+            });
+            let (of_color, of_normal) = mean(places.map(|(i, area)| (color[i], normal[i], area)));
+            colors.push(of_color);
+            normals.push(of_normal);
+        }
+    }
+    let shape = SlicingShape {
+        pixels: side,
+        ..slicing.shape().clone()
+    };
+    Slicing::trimmed(shape, colors, normals)
+}
+
+/// The pixels of `from` that pixel `index` of `side` covers, along a side, and how much of it is theirs.
+fn covered(index: u32, side: u32, from: u32) -> Vec<(usize, f32)> {
+    let step = from as f32 / side as f32;
+    let (low, high) = (index as f32 * step, (index + 1) as f32 * step);
+    let last = (high.ceil() as u32).min(from);
+    (low as u32..last)
+        .map(|i| {
+            let share = (high.min(i as f32 + 1.0) - low.max(i as f32)) / step;
+            (i as usize, share.max(0.0))
+        })
+        .collect()
+}
+
+/// The mean of pixels' colours and normals, each with its area; the areas add up to 1.
+fn mean(pixels: impl Iterator<Item = ([u8; 4], [u8; 4], f32)>) -> ([u8; 4], [u8; 4]) {
+    let (mut light, mut normal) = ([0.0; 3], [0.0; 4]);
+    let (mut alpha, mut all) = (0.0, 0.0);
+    for ([r, g, b, a], n, area) in pixels {
+        let a = f32::from(a) / 255.0;
+        // Next to nothing where all is transparent: the colour under it is kept for filtering.
+        let weight = area * (a + 1e-3);
+        for (sum, byte) in light.iter_mut().zip([r, g, b]) {
+            *sum += weight * decode(byte);
+        }
+        for (sum, byte) in normal.iter_mut().zip(n) {
+            *sum += weight * f32::from(byte) / 255.0;
+        }
+        alpha += area * a;
+        all += weight;
+    }
+    let [r, g, b] = light.map(|sum| encode(sum / all));
+    ([r, g, b, unorm(alpha)], normal.map(|sum| unorm(sum / all)))
 }
 
 /// The trimmed outline of a layer through the crown's middle.
@@ -164,6 +235,52 @@ fn image(data: Vec<u8>, size: u32, format: TextureFormat) -> Image {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::slicing::Orientation;
+
+    #[test]
+    fn a_picture_of_another_size_covers_as_much_in_the_same_colours() {
+        let mut orientation = Orientation::facing(Vec3::X);
+        (orientation.low, orientation.high) = (Vec3::NEG_ONE, Vec3::ONE);
+        let shape = SlicingShape {
+            centroid: Vec3::ZERO,
+            radius: 1.0,
+            pixels: 64,
+            levels: vec![1],
+            switches: Vec::new(),
+            correction: 0.5,
+            diffuse_transmission: 0.0,
+            sphere: false,
+            vertical: false,
+            orientations: vec![orientation],
+        };
+        // Opaque green in a transparent red that nothing may come in of.
+        let is_there = |i: u32| i / 64 % 7 < 3 && i % 5 < 2;
+        let color = (0..64 * 64).map(|i| {
+            if is_there(i) {
+                [20, 200, 40, 255]
+            } else {
+                [255, 0, 0, 0]
+            }
+        });
+        let normal = vec![[255, 128, 128, 200]; 64 * 64];
+        let fine = Slicing::trimmed(shape, color.collect(), normal);
+        let alpha = |slicing: &Slicing| {
+            let pixels = slicing.color(0);
+            let sum: f32 = pixels.iter().map(|p| f32::from(p[3])).sum();
+            sum / pixels.len() as f32
+        };
+        for side in [64, 45, 40, 33] {
+            let small = resized(fine.clone(), side);
+            assert_eq!(small.color(0).len() as u32, side * side);
+            // Half a step of eight bits.
+            assert!((alpha(&small) - alpha(&fine)).abs() <= 0.5, "{side}");
+            for ([r, _, _, a], normal) in small.color(0).iter().zip(small.normal(0)) {
+                // What is there a quarter has three thousandths of its light from the red.
+                assert!(*a < 64 || *r < 40, "{side}: {r} {a}");
+                assert_eq!(*normal, [255, 128, 128, 200], "{side}");
+            }
+        }
+    }
 
     #[test]
     fn a_mask_covers_as_much_in_every_level() {

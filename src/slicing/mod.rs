@@ -78,12 +78,12 @@ use bevy::prelude::*;
 use bevy::render::storage::ShaderBuffer;
 use bevy::shader::load_shader_library;
 
-#[cfg(feature = "lab")]
-pub(crate) use bake::bake_towards;
 pub use bake::{
     BakeError, BakeSettings, CrownMaterial, CrownMesh, CrownTexture, CrownTriangle, CrownVertex,
     Separation, bake, bake_with_progress, separate,
 };
+#[cfg(feature = "lab")]
+pub(crate) use bake::{bake_towards, bake_unchecked};
 pub use blend::{DrawnSlice, SliceOrder};
 pub use close_up::close_up;
 pub use component::{Composition, CrownSettings, CrownTint, DiscrepancyAngle, SlicedCrown};

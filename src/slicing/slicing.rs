@@ -185,6 +185,13 @@ impl Slicing {
                 return Err(SlicingError::PictureSize { expected, found });
             }
         }
+        Ok(Self::trimmed(shape, color, normal))
+    }
+
+    /// A slicing of pictures of the shape's size, whatever that is: of more pixels than a slicing may have, for other methods to
+    /// draw.
+    pub(crate) fn trimmed(shape: SlicingShape, color: Vec<[u8; 4]>, normal: Vec<[u8; 4]>) -> Self {
+        let layer = (shape.pixels * shape.pixels) as usize;
         let octagons = color
             .chunks_exact(layer)
             .map(|pixels| {
@@ -193,12 +200,12 @@ impl Slicing {
                 })
             })
             .collect();
-        Ok(Self {
+        Self {
             shape,
             color,
             normal,
             octagons,
-        })
+        }
     }
 
     /// All but the pictures.

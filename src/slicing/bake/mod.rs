@@ -10,6 +10,7 @@
 
 mod alpha;
 pub(crate) mod color;
+mod derived;
 mod error;
 mod from_mesh;
 mod occlusion;
@@ -21,6 +22,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod texture;
+mod to_mesh;
 
 use core::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::Mutex;
@@ -72,6 +74,17 @@ pub(crate) fn bake_towards(
     bake_shape(mesh, settings, directions, |_, _| {})
 }
 
+/// Bakes with settings that are not checked: in particular, with more pixels a side (a power of two) than a slicing may have.
+#[cfg(feature = "lab")]
+pub(crate) fn bake_unchecked(
+    mesh: &CrownMesh,
+    settings: &BakeSettings,
+) -> Result<Slicing, BakeError> {
+    mesh.check()?;
+    let (shape, color, normal) = layers(mesh, settings, settings.directions(), |_, _| {});
+    Ok(Slicing::trimmed(shape, color, normal))
+}
+
 fn bake_shape(
     mesh: &CrownMesh,
     settings: &BakeSettings,
@@ -80,6 +93,17 @@ fn bake_shape(
 ) -> Result<Slicing, BakeError> {
     mesh.check()?;
     settings.check()?;
+    let (shape, color, normal) = layers(mesh, settings, directions, progress);
+    Ok(Slicing::new(shape, color, normal).expect("the settings have been checked"))
+}
+
+/// The shape, and all layers' colours and normals.
+fn layers(
+    mesh: &CrownMesh,
+    settings: &BakeSettings,
+    directions: Vec<Vec3>,
+    progress: impl Fn(usize, usize) + Sync,
+) -> (SlicingShape, Vec<[u8; 4]>, Vec<[u8; 4]>) {
     let shape = shape(mesh, settings, directions);
     let share = settings.occlusion;
     let light: Vec<f32> = if share > 0.0 {
@@ -104,7 +128,7 @@ fn bake_shape(
         color.extend(colors);
         normal.extend(normals);
     }
-    Ok(Slicing::new(shape, color, normal).expect("the settings have been checked"))
+    (shape, color, normal)
 }
 
 /// Orientation, slice and number of slices of each layer.

@@ -8,7 +8,7 @@ use super::source::CrownMesh;
 /// The parts of a plant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Separation {
-    /// Trunk and limbs: what stays a mesh.
+    /// Trunk and limbs: what stays a mesh ([`CrownMesh::to_mesh`]).
     pub solid: CrownMesh,
     /// Twigs and leaves: what is baked.
     pub sparse: CrownMesh,

@@ -9,7 +9,8 @@ use crate::slicing::limits::{
 use crate::slicing::orientation::Orientations;
 
 /// Settings of [`bake`](super::bake()). The defaults are the paper's 6 orientations of 5 slices of 256² pixels, with a
-/// vertical orientation and two coarser levels of detail besides.
+/// vertical orientation and two coarser levels of detail besides; [`for_view`](Self::for_view) derives them from a distance and
+/// an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BakeSettings {
     /// Directions to bake for.

@@ -1,10 +1,11 @@
 //! Crowns that change while they are on screen.
 
 use bevy::prelude::*;
-use bevy_verdure::lab::{Lens, Studio};
+use bevy_verdure::lab::{Lens, Pixels, Studio};
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::blend::FOCAL;
 use bevy_verdure::slicing::{SlicedCrownMaterial, SlicingShape};
+use bevy_verdure::wind::sway;
 
 use crate::recovery::{lose_device, recovering_studio};
 
@@ -44,6 +45,77 @@ fn tints_settings_and_wind_follow_the_components() {
     assert_ne!(windy.rgb_bytes(), plain.rgb_bytes());
     let still = change(&mut |world| world.insert_resource(Wind::default()));
     assert_eq!(still.rgb_bytes(), plain.rgb_bytes());
+}
+
+/// The crown with the finest level alone, and of each orientation's slices with one alone.
+fn one_slice(index: usize) -> Slicing {
+    let shape = SlicingShape {
+        levels: vec![CROWN.shape().levels[0]],
+        switches: Vec::new(),
+        ..CROWN.shape().clone()
+    };
+    let count = shape.levels[0] as usize;
+    let empty = vec![[0; 4]; (shape.pixels * shape.pixels) as usize];
+    let color = (0..shape.layers()).flat_map(|layer| {
+        if layer % count == index {
+            CROWN.color(layer).to_vec()
+        } else {
+            empty.clone()
+        }
+    });
+    let color = color.collect();
+    let normal = (0..shape.layers()).flat_map(|layer| CROWN.normal(layer).to_vec());
+    let normal = normal.collect();
+    Slicing::new(shape, color, normal).expect("one slice of the crown is a slicing")
+}
+
+/// How far right the green of a picture is in the mean, in pixels.
+fn middle(picture: &Pixels) -> f64 {
+    let all = (0..SIZE.y).flat_map(|y| (0..SIZE.x).map(move |x| (x, y)));
+    let (sum, weight) = all.fold((0.0, 0.0), |(sum, weight), (x, y)| {
+        let green = f64::from(picture.rgb(x, y)[1]);
+        (sum + green * f64::from(x), weight + green)
+    });
+    sum / weight
+}
+
+/// How far the wind moves one slice, over what sways alike in all: the greatest of a while over the least.
+fn flutter(index: usize) -> f64 {
+    let mut studio = Studio::default();
+    let world = studio.world();
+    let slicing = world
+        .resource_mut::<Assets<Slicing>>()
+        .add(one_slice(index));
+    world.spawn((SlicedCrown(slicing), UNLIT));
+    studio.headless.step();
+    // In line with an orientation, which so is drawn alone, the wind across.
+    let look = shot(eye(0.0, 0.0, 16.0));
+    let still = middle(&studio.photograph(&look, Color::BLACK));
+    let wind = Wind::new(Vec3::Z * 25.0);
+    studio.world().insert_resource(wind);
+    studio.headless.step();
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    // Slices flutter in 1.2 s.
+    while studio.world().resource::<Time>().elapsed_secs() < 1.4 {
+        for _ in 0..3 {
+            studio.headless.step();
+        }
+        let moved = (middle(&studio.photograph(&look, Color::BLACK)) - still).abs();
+        let time = studio.world().resource::<Time>().elapsed_secs();
+        let share = moved / f64::from(sway(wind.velocity, Vec3::ZERO, 1.0, 1.0, time).z);
+        (least, most) = (least.min(share), most.max(share));
+    }
+    most / least
+}
+
+#[test]
+fn slices_near_to_the_eye_flutter_and_far_ones_hardly() {
+    let [far, near] = [0, 4].map(flutter);
+    println!("most over least: the furthest slice {far:.3}, the nearest {near:.3}");
+    // By a quarter times nearness, which is 0.1 and 0.9: 1.05 and 1.58. A picture that is a frame older than its time is taken to be sees
+    // gusts that are up to 3 % more or less.
+    assert!(far < 1.2, "{far}");
+    assert!(near > 1.35, "{near}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod brightness;
 mod close_up;
 mod compression;
 mod draws;
+mod error;
 mod files;
 mod intersecting;
 mod lighting;
@@ -98,6 +99,16 @@ fn plant(studio: &mut Studio, settings: CrownSettings, transform: Transform) -> 
 
 /// Plants the triangles that the crown was baked from, lit or in their own colours.
 fn plant_mesh(studio: &mut Studio, transform: Transform, unlit: bool) -> Vec<Entity> {
+    plant_crown_of(&TREE, studio, transform, unlit)
+}
+
+/// Plants the twigs and leaves of a tree, as triangles.
+fn plant_crown_of(
+    tree: &BroadleafMeshes,
+    studio: &mut Studio,
+    transform: Transform,
+    unlit: bool,
+) -> Vec<Entity> {
     let world = studio.world();
     let green = world
         .resource_mut::<Assets<StandardMaterial>>()
@@ -109,7 +120,7 @@ fn plant_mesh(studio: &mut Studio, transform: Transform, unlit: bool) -> Vec<Ent
             unlit,
             ..default()
         });
-    let parts = [&TREE.twigs, &TREE.leaves];
+    let parts = [&tree.twigs, &tree.leaves];
     let parts = parts.map(|mesh| world.resource_mut::<Assets<Mesh>>().add(mesh.clone()));
     let plant = |mesh| {
         let look = (Mesh3d(mesh), MeshMaterial3d(green.clone()), transform);
