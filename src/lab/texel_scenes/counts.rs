@@ -5,8 +5,8 @@ use bevy::prelude::*;
 use crate::lab::studio::{Lens, Shot};
 use crate::texel::facet::{Facet, slice_range};
 use crate::texel::{
-    AxisSlices, ReferenceVolume, SliceAxis, SliceBoxes, SliceSets, TexelSettings, TexelView,
-    VolumeMeasure, choose_fading,
+    ReferenceVolume, SliceAxis, SliceBoxes, SliceSets, TexelSettings, TexelView, VolumeMeasure,
+    choose_fading,
 };
 
 /// What facets are drawn by.
@@ -20,7 +20,7 @@ pub struct SliceCounts {
     pub triangles: usize,
 }
 
-/// Counts what a view shows of facets in world space, apart from what fades in and out, and from slices that show nothing.
+/// Counts what a view shows of facets in world space, with what fades in and out, and without slices that show nothing.
 pub(crate) fn count(
     facets: &[Facet],
     volume: &ReferenceVolume,
@@ -33,22 +33,26 @@ pub(crate) fn count(
     let mut counts = SliceCounts::default();
     for facet in facets {
         let all = choose_fading(facet, &measure, &view, &settings.quality);
-        let share = |slices: &AxisSlices| slices.lots[1] - slices.lots[0];
-        let best = all.into_iter().flatten();
-        let Some(best) = best.max_by(|a, b| share(a).total_cmp(&share(b))) else {
-            continue;
-        };
-        let (axis, count) = (best.axis, 1 << best.exponent);
-        let is_drawn = |slice: &i32| {
-            settings.empty_slices
-                || boxes
-                    .trim(facet.uvs, axis, *slice, count, best.footprint)
-                    .is_some()
-        };
-        let slices = slice_range(facet.uvs, axis, count).filter(is_drawn).count();
-        counts.facets += 1;
-        counts.slices += slices;
-        counts.triangles += slices * if axis == SliceAxis::W { 1 } else { 2 };
+        let sets = all.iter().flatten();
+        let sets = sets.flat_map(|best| {
+            best.sets(settings.fade)
+                .map(move |(count, _)| (best, count))
+        });
+        let mut is_seen = false;
+        for (best, count) in sets {
+            let axis = best.axis;
+            let is_drawn = |slice: &i32| {
+                settings.empty_slices
+                    || boxes
+                        .trim(facet.uvs, axis, *slice, count, best.footprint)
+                        .is_some()
+            };
+            let slices = slice_range(facet.uvs, axis, count).filter(is_drawn).count();
+            is_seen = true;
+            counts.slices += slices;
+            counts.triangles += slices * if axis == SliceAxis::W { 1 } else { 2 };
+        }
+        counts.facets += usize::from(is_seen);
     }
     counts
 }

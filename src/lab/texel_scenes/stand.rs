@@ -51,6 +51,8 @@ pub fn all_slices(lighting: PlantLighting) -> TexelSettings {
             pixels: 1e-3,
             ..default()
         },
+        // All of the best direction, and of no other besides.
+        fade: false,
         lighting,
         ..default()
     }

@@ -198,6 +198,22 @@ pub fn choose_fading(
     })
 }
 
+impl AxisSlices {
+    /// The sets that are drawn: how many slices a texel has in each, and the pixels' lots that it gets. Twice as many fade in from
+    /// the lower lots on. Without fading, whichever has more of the lots has all.
+    pub fn sets(&self, fades: bool) -> impl Iterator<Item = (u32, [f32; 2])> {
+        let ([mut low, mut high], mut finer) = (self.lots, self.finer);
+        if !fades {
+            (low, high, finer) = (low.round(), high.round(), 0.0);
+        }
+        let split = low + (high - low) * finer;
+        let count = 1u32 << self.exponent;
+        [(count, [split, high]), (2 * count, [low, split])]
+            .into_iter()
+            .filter(|(_, [low, high])| low < high)
+    }
+}
+
 /// A facet as a view sees it, along u, v and w.
 struct FacetInView {
     /// Cosines of the angles between the view and the normals.

@@ -159,18 +159,7 @@ impl SliceSource {
             };
             let chosen = choose_fading(&facet, &self.volume.measure, &from.view, &quality);
             for slices in chosen.into_iter().flatten() {
-                let [mut low, mut high] = slices.lots;
-                if !fades {
-                    (low, high) = (low.round(), high.round());
-                }
-                let finer = if fades { slices.finer } else { 0.0 };
-                // Twice as many slices fade in from the lower lots on.
-                let split = low + (high - low) * finer;
-                let count = 1u32 << slices.exponent;
-                for (count, low, high) in [(count, split, high), (2 * count, low, split)] {
-                    if low >= high {
-                        continue;
-                    }
+                for (count, lots) in slices.sets(fades) {
                     let range = slice_range(facet.uvs, slices.axis, count);
                     let most = self.volume.measure.most[slices.axis.index()];
                     let inner = settings.inner_slices(count, most);
@@ -187,7 +176,7 @@ impl SliceSource {
                             facet: index,
                             slice,
                             count,
-                            lots: [low, high],
+                            lots,
                             stand_off,
                             trim,
                         })
