@@ -20,7 +20,8 @@ const LEFT_OUT: f64 = 0.05;
 /// What the frame of a group takes above the empty scene's, in milliseconds, at each place where the walk is looked at.
 fn times(lab: &mut Lab, trees: u32, groups: &[Vec<Entity>]) -> Vec<Vec<f64>> {
     let stride = if lab.quick { 130 } else { 40 };
-    let frames = if lab.quick { 1 } else { 3 };
+    // Of a single frame, the worst would be what else the machine does.
+    let frames = if lab.quick { 4 } else { 5 };
     let mut times = vec![Vec::new(); groups.len()];
     for frame in (0..FRAMES).step_by(stride) {
         let (eye, at) = rosette::view(grove::radius(trees), frame);

@@ -203,7 +203,8 @@ fn place_corner(in: Corner) -> Varying {
         // Flexibility is in local metres.
         moved = sway(crown.wind.xyz, origin, height, crown.flexibility * metre(in.instance_index), globals.time);
         // Near slices move more than far ones, each in its own time.
-        let nearness = (f32(slice.index) + 0.5) / f32(count);
+        let from_far = select(count - 1u - slice.index, slice.index, faces);
+        let nearness = (f32(from_far) + 0.5) / f32(count);
         moved *= 1.0 + FLUTTER * nearness * sin(5.3 * globals.time + 2.4 * f32(slice.index) + dot(origin.xz, vec2(1.7)));
     }
     // Relative to the eye, so that a plant 10 km from the origin is as steady as one at the origin.
