@@ -57,7 +57,8 @@ pub struct CrownSettings {
     pub order: SliceOrder,
     /// What the discrepancy angle is taken for, up close.
     pub discrepancy: DiscrepancyAngle,
-    /// How many of the furthest slices of each slicing are left out, as the paper allows (§2.3).
+    /// How many of the furthest slices of each slicing are left out, as the paper allows (§2.3). Of each one
+    /// slice at least is drawn.
     pub left_out: u32,
     /// What lights the crown. It is some ten slices deep and lit in each: of what `Full` takes among many trees on a software
     /// driver, `Simple`, the default, takes two fifths and is hardly told from it, and `Unlit` a quarter.

@@ -6,14 +6,14 @@ use bevy::math::Vec3;
 use bevy::reflect::Reflect;
 use serde::{Deserialize, Serialize};
 
-/// How the directions from which a plant is seen are covered with orientations (§2.3).
+/// How the directions from which a plant is seen are covered with orientations (§2.3). Other numbers are refused when it is baked.
 #[derive(Clone, Debug, PartialEq, Reflect)]
 pub enum Orientations {
-    /// So many, evenly spread over the horizontal circle; at least 3. The paper has 6.
+    /// So many, evenly spread over the horizontal circle: 3 to 31. The paper has 6.
     Circle(u32),
-    /// So many, evenly spread over the sphere; at least 6.
+    /// So many, evenly spread over the sphere: 6 to 31.
     Sphere(u32),
-    /// So many over an arc of the horizontal circle, from which alone the plant is seen; at least 2.
+    /// So many over an arc of the horizontal circle, from which alone the plant is seen: 2 to 31.
     Arc {
         /// How many, both ends included.
         count: u32,

@@ -56,8 +56,7 @@ impl Model {
     pub fn crown(&self, is_wanted: impl Fn(&ModelPart) -> bool) -> Result<CrownMesh, String> {
         let mut crown = CrownMesh::default();
         for part in self.parts.iter().filter(|part| is_wanted(part)) {
-            let added = self.crown_of(part);
-            let added = added.map_err(|error| format!("mesh `{}`: {error}", part.mesh))?;
+            let added = self.crown_of(part).map_err(|error| error.to_string())?;
             crown.append(&added, Mat4::IDENTITY);
         }
         Ok(crown)
@@ -68,11 +67,7 @@ impl Model {
         let material = CrownMaterial::from_standard(&part.mesh, &part.surface, &self.images)?;
         let material = crown.add_material(material);
         crown.add_mesh(&part.mesh, &part.triangles, Mat4::IDENTITY, material)?;
-        match crown.check() {
-            // Others may have some.
-            Ok(()) | Err(BakeError::NoTriangles | BakeError::NoArea) => Ok(crown),
-            Err(error) => Err(error),
-        }
+        Ok(crown)
     }
 
     /// All of it, to be built into a volume: glTF's y is its height, w, and −z is v.

@@ -16,7 +16,7 @@ pub struct Separation {
 
 /// Parts a plant's triangles by connected component: those whose box has a diagonal of at least `share` of the whole
 /// plant's are solid. Corners at the very same position are connected. A good first try is 0.25: a trunk with its limbs
-/// is one large component, leaves are many small ones.
+/// is one large component, leaves are many small ones. From 0 down all are solid, above 1 none is, and none of no number.
 ///
 /// Where parts are known by name, put them into two crowns instead, mesh by mesh.
 pub fn separate(plant: &CrownMesh, share: f32) -> Separation {

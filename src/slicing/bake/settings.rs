@@ -10,7 +10,8 @@ use crate::slicing::orientation::Orientations;
 
 /// Settings of [`bake`](super::bake()). The defaults are the paper's 6 orientations of 5 slices of 256² pixels, with a
 /// vertical orientation and two coarser levels of detail besides; [`for_view`](Self::for_view) derives them from a distance and
-/// an error.
+/// an error. There are 256 slices at most in all, of all orientations and levels, and 2²⁶ pixels; what is out of range is refused,
+/// with the fix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BakeSettings {
     /// Directions to bake for.

@@ -13,7 +13,8 @@ pub const MAX_COORDINATE: f32 = 1e5;
 /// The look of some of a crown's triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CrownMaterial {
-    /// Base colour, linear, multiplied with vertex colours and the texture.
+    /// Base colour, linear with alpha, multiplied with vertex colours and the texture. What comes to less than 0 or more than 1 is
+    /// taken for the nearest; what is not finite is refused when it is baked.
     pub color: [f32; 4],
     /// Base colour texture; `None` is white.
     pub texture: Option<CrownTexture>,

@@ -100,8 +100,44 @@ fn wrong_files_are_refused_with_the_file_and_the_fix() {
 
 #[test]
 fn the_asset_server_loads_a_crown_and_a_bad_reload_keeps_the_last_good_one() {
-    let folder = folder("served");
-    save_slicing(&CROWN, &folder, "crown").expect("the folder can be written to");
+    let picture = "crown.0.color.png";
+    type Break = fn(&Path);
+    let faults: [(Break, &str); 4] = [
+        (
+            |folder| {
+                edit(
+                    &folder.join("crown.slicing.ron"),
+                    "pixels: 64",
+                    "pixels: 63",
+                )
+            },
+            "crown.slicing.ron: pixels is 63",
+        ),
+        (
+            |folder| std::fs::remove_file(folder.join("crown.0.color.png")).unwrap(),
+            picture,
+        ),
+        (
+            |folder| std::fs::write(folder.join("crown.0.color.png"), [137, 80, 78]).unwrap(),
+            picture,
+        ),
+        (
+            |folder| {
+                let other = folder.join("crown.0.color.png");
+                image::RgbaImage::new(8, 8).save(other).unwrap();
+            },
+            picture,
+        ),
+    ];
+    for (number, (fault, what)) in faults.into_iter().enumerate() {
+        let error = reloaded_with(&folder(&format!("served{number}")), fault);
+        assert!(error.contains(what), "{error}");
+    }
+}
+
+/// Why a crown that was loaded from a folder cannot be loaded again once something there is broken. The loaded one stays.
+fn reloaded_with(folder: &Path, fault: fn(&Path)) -> String {
+    save_slicing(&CROWN, folder, "crown").expect("the folder can be written to");
     let mut app = App::new();
     app.add_plugins((
         MinimalPlugins,
@@ -133,20 +169,11 @@ fn the_asset_server_loads_a_crown_and_a_bad_reload_keeps_the_last_good_one() {
     let is_crown =
         |app: &App| app.world().resource::<Assets<Slicing>>().get(&handle) == Some(&*CROWN);
     assert!(is_crown(&app));
-    edit(
-        &folder.join("crown.slicing.ron"),
-        "pixels: 64",
-        "pixels: 63",
-    );
+    fault(folder);
     server.reload("crown.slicing.ron");
     let LoadState::Failed(error) = wait(&mut app, LoadState::is_failed) else {
         unreachable!("it was waited for");
     };
     assert!(is_crown(&app));
-    assert!(
-        error
-            .to_string()
-            .contains("crown.slicing.ron: pixels is 63"),
-        "{error}"
-    );
+    error.to_string()
 }
