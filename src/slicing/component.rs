@@ -67,7 +67,7 @@ pub struct CrownSettings {
     pub frames: bool,
 }
 
-/// What one discrepancy angle (§2.3) holds for, where the eye is less than 2.2 radii from a crown's centroid. In the paper's order, over
+/// What one discrepancy angle (§2.3) holds for, where the eye is less than 3 radii from a crown's centroid. In the paper's order, over
 /// the sphere, in orthographic views and from further away it is always the whole crown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]

@@ -156,16 +156,16 @@ impl TexelScene {
                 let lean = |_| Vec3::new(0.35, 0.3, 0.0);
                 let spread = |at: Vec3| Vec3::new(at.x * 0.7, 0.35, at.z * 0.7);
                 vec![
-                    covered(flat(), 0.3, Transform::from_xyz(-1.25, 0.02, 0.0)),
+                    covered(flat(), 0.3, Transform::from_xyz(-1.52, 0.02, 0.0)),
                     covered(
                         surfaces::with_heights(flat(), lean),
                         0.3,
-                        Transform::from_xyz(0.0, 0.02, 0.0),
+                        Transform::from_xyz(-0.42, 0.02, 0.0),
                     ),
                     covered(
                         surfaces::with_heights(flat(), spread),
                         0.3,
-                        Transform::from_xyz(1.3, 0.02, 0.0),
+                        Transform::from_xyz(1.27, 0.02, 0.0),
                     ),
                 ]
             }

@@ -10,10 +10,9 @@ use crate::slicing::slicing::SlicingShape;
 /// Slicings that are drawn at once where the discrepancy angle is taken part by part.
 pub const PART_SLOTS: usize = SLOTS + 1;
 
-/// Distances in radii from where to where the discrepancy angle goes over from that of each part to that of the whole crown. 2.2
-/// radii away a ball that fills its slicing box is seen under 27° to either side of its middle, most crowns under half of it, where parts
-/// take nothing off the error.
-pub const PARTS: [f32; 2] = [1.6, 2.2];
+/// Distances in radii from where to where the discrepancy angle goes over from that of each part to that of the whole crown. Three
+/// radii away a ball that fills its slicing box is seen under 20° to either side of its middle, most crowns under half of it.
+pub const PARTS: [f32; 2] = [2.0, 3.0];
 
 /// The greatest angle, in radians, by which a part's direction may differ from the whole crown's: 30°. So a slicing that is drawn
 /// has its front to the eye, and the vertical one that which it shows to the middle of the crown.

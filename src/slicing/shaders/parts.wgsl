@@ -9,7 +9,7 @@
 const OPPOSITE: f32 = -0.9999;
 
 const PART_SLOTS: u32 = 4u;
-const PARTS: vec2<f32> = vec2(1.6, 2.2);
+const PARTS: vec2<f32> = vec2(2.0, 3.0);
 
 // Cosine and sine of the angle by which directions to the eye may differ from that from the centroid, for an eye so many radii
 // away; `level` is the cosine of the eye's elevation.
