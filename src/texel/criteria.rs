@@ -74,8 +74,8 @@ pub fn count_exponent(slices: f32, most: u32) -> u32 {
 }
 
 /// The last part of the way to the next count, and to the next direction, in which one fades into the other. Both are drawn
-/// meanwhile, three times the slices where a count doubles: a quarter of the way would draw half as many again on the whole.
-pub const FADE: f32 = 0.0625;
+/// meanwhile, three times the slices where a count doubles: a quarter of the way would draw two fifths more on the whole, a sixteenth would pop.
+pub const FADE: f32 = 0.09375;
 
 /// The share of twice as many slices that fades in before they are needed, where 2^`exponent` still do: 0 to 1. So nothing
 /// pops when the count doubles, and there are never fewer slices than asked for.

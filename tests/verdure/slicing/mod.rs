@@ -17,6 +17,7 @@ mod passes;
 mod steady;
 mod twins;
 mod twins_of_blending;
+mod views;
 
 use std::sync::LazyLock;
 
