@@ -1,6 +1,7 @@
 //! Baking: from the triangles of a crown to the pictures of its slices (§2.1, §2.2).
 //!
-//! 1. The crown's triangles are gathered (`source`, `from_mesh`) and parted from the solid ones (`separate`).
+//! 1. The crown's triangles are gathered (`source`, `from_mesh`) and parted from the solid ones (`separate`), which stay a mesh
+//!    (`to_mesh`). Settings are given, or follow from a distance and an error (`settings`, `derived`).
 //! 2. The light that leaves hold back is found for each (`occlusion`).
 //! 3. Every orientation gets its box and axes ([`Orientation`]); every slice is a job of its own, taken by the next
 //!    free thread: the triangles nearest to it are drawn by parallel projection with many samples a pixel (`raster`, `alpha`).
