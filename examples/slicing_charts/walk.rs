@@ -17,37 +17,41 @@ const MESHES: u32 = 128;
 /// Share of the times, the longest ones, that the paper leaves out for what else the machine does.
 const LEFT_OUT: f64 = 0.05;
 
-/// What the frame of a group takes above the empty scene's, in milliseconds, at each place where the walk is looked at.
+/// Frames of the walk from one stretch that is looked at to the next.
+const STRIDE: usize = 130;
+
+/// Steps to a frame of the walk.
+fn step(lab: &mut Lab, trees: u32, frame: usize) {
+    let (eye, at) = rosette::view(grove::radius(trees), frame);
+    let shot = Shot {
+        eye,
+        at,
+        lens: Lens::Perspective(0.9),
+        size: UVec2::new(640, 480),
+    };
+    let camera = lab.studio.camera();
+    let mut camera = lab.studio.world().entity_mut(camera);
+    camera.insert(shot.transform());
+    lab.studio.headless.step();
+    wait_for_gpu(lab.studio.world());
+}
+
+/// What the frame of a group takes above the empty scene's, in milliseconds, on each stretch of the walk that is looked at: the
+/// mean of as many frames that follow one another as the paper takes, or of a few if it is to be quick.
 fn times(lab: &mut Lab, trees: u32, groups: &[Vec<Entity>]) -> Vec<Vec<f64>> {
-    let stride = if lab.quick { 130 } else { 40 };
-    // Of a single frame, the worst would be what else the machine does.
-    let frames = if lab.quick { 4 } else { 5 };
+    let frames = if lab.quick { 4 } else { 20 };
     let mut times = vec![Vec::new(); groups.len()];
-    for frame in (0..FRAMES).step_by(stride) {
-        let (eye, at) = rosette::view(grove::radius(trees), frame);
-        let shot = Shot {
-            eye,
-            at,
-            lens: Lens::Perspective(0.9),
-            size: UVec2::new(640, 480),
-        };
-        let camera = lab.studio.camera();
-        lab.studio
-            .world()
-            .entity_mut(camera)
-            .insert(shot.transform());
+    for first in (0..FRAMES).step_by(STRIDE) {
         let mut empty = 0.0;
         for shown in core::iter::once(None).chain((0..groups.len()).map(Some)) {
             grove::show(lab.studio.world(), groups, shown);
             // What changes a scene costs the frame that it changes in.
-            lab.studio.headless.step();
-            wait_for_gpu(lab.studio.world());
+            step(lab, trees, first);
             let started = Instant::now();
-            for _ in 0..frames {
-                lab.studio.headless.step();
-                wait_for_gpu(lab.studio.world());
+            for frame in first..first + frames {
+                step(lab, trees, frame);
             }
-            let took = started.elapsed().as_secs_f64() * 1e3 / f64::from(frames);
+            let took = started.elapsed().as_secs_f64() * 1e3 / frames as f64;
             match shown {
                 None => empty = took,
                 Some(group) => times[group].push((took - empty).max(0.0)),

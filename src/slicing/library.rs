@@ -15,11 +15,13 @@ use bevy::render::storage::ShaderBuffer;
 use super::blend::{PART_SLOTS, SLOTS, widest};
 use super::component::{CrownSettings, CrownTint, SlicedCrown};
 use super::compression::SlicingCompression;
-use super::material::{CrownUniform, SlicedCrownMaterial};
+use super::gather::{LEAST_LAYERS, Placed};
+use super::material::SlicedCrownMaterial;
 use super::mesh::crown_mesh;
 use super::near::Nearness;
+use super::set::{CrownSet, SetKind, SetSource};
 use super::slicing::Slicing;
-use super::upload::{bounds, images, octagons};
+use super::upload::{bounds, data};
 use crate::lighting::SceneLights;
 use crate::wind::Wind;
 
@@ -33,23 +35,30 @@ pub(crate) type Look = (Mesh3d, MeshMaterial3d<SlicedCrownMaterial>);
 pub(crate) struct Shared {
     /// For crowns far away, and near by.
     meshes: [Handle<Mesh>; 2],
-    color: Handle<Image>,
-    normal: Handle<Image>,
-    octagons: Handle<ShaderBuffer>,
     bounds: Aabb,
     /// The centroid, local, and the radius.
     pub(crate) ball: (Vec3, f32),
     /// Whether parts may be seen from directions of their own.
     pub(crate) has_parts: bool,
-    compressed: bool,
-    /// For crowns far away, and near by.
-    materials: HashMap<CrownSettings, [Handle<SlicedCrownMaterial>; 2]>,
+    layers: u32,
+    age: u32,
+    /// What it is drawn from.
+    set: u32,
+    /// Where it is there.
+    place: usize,
 }
 
 /// What is on the GPU, by slicing, as long as a crown uses it.
 #[derive(Resource, Default)]
 pub(crate) struct CrownLibrary {
     pub(crate) shared: HashMap<AssetId<Slicing>, Shared>,
+    sets: HashMap<u32, CrownSet>,
+    /// How many sets there have been.
+    count: u32,
+    /// How often slicings came, went or changed.
+    pub(crate) changes: u32,
+    /// Whether crowns are drawn with what is out of date.
+    pub(crate) is_stale: bool,
 }
 
 /// The assets that slicings are turned into, and what they are turned into them for.
@@ -73,103 +82,145 @@ impl CrownAssets<'_> {
         is_new_device || self.compression.is_changed()
     }
 
-    fn compresses(&self, slicing: &Slicing) -> bool {
+    /// With what a slicing may be drawn together.
+    fn kind(&self, slicing: &Slicing) -> SetKind {
         let pixels = slicing.shape().pixels;
         let device = self.device.as_ref();
-        device.is_some_and(|device| self.compression.applies(pixels, device.features()))
+        SetKind {
+            pixels,
+            compressed: device
+                .is_some_and(|device| self.compression.applies(pixels, device.features())),
+            transmits: slicing.shape().diffuse_transmission > 0.0,
+        }
+    }
+
+    /// Layers that a texture array may have.
+    pub(crate) fn most_layers(&self) -> u32 {
+        let device = self.device.as_ref();
+        device.map_or(LEAST_LAYERS, |device| {
+            device.limits().max_texture_array_layers
+        })
     }
 }
 
-impl Shared {
-    fn new(slicing: &Slicing, assets: &mut CrownAssets) -> Self {
-        let compressed = assets.compresses(slicing);
-        let [color, normal] = images(slicing, compressed);
-        Self {
-            meshes: SLOTS_BY_NEARNESS
-                .map(|slots| assets.meshes.add(crown_mesh(slicing.shape(), slots))),
-            color: assets.images.add(color),
-            normal: assets.images.add(normal),
-            octagons: assets.buffers.add(octagons(slicing)),
-            bounds: bounds(slicing),
-            ball: (slicing.shape().centroid, slicing.shape().radius),
-            has_parts: widest(slicing.shape()) > 0.0,
-            compressed,
-            materials: HashMap::default(),
+impl CrownLibrary {
+    /// Draws slicings from a new set, wherever they were drawn from.
+    pub(crate) fn settle(&mut self, source: SetSource, assets: &mut CrownAssets) {
+        let id = self.count;
+        self.count += 1;
+        self.changes += 1;
+        for (place, (slicing_id, slicing)) in source.slicings.iter().enumerate() {
+            let before = self.shared.remove(slicing_id);
+            if let Some(before) = &before {
+                self.leave(before);
+            }
+            let shape = slicing.shape();
+            let mesh = |slots| assets.meshes.add(crown_mesh(shape, slots, place as u32));
+            let shared = Shared {
+                meshes: SLOTS_BY_NEARNESS.map(mesh),
+                bounds: bounds(slicing),
+                ball: (shape.centroid, shape.radius),
+                has_parts: widest(shape) > 0.0,
+                layers: shape.layers() as u32,
+                age: before.map_or(id, |before| before.age),
+                set: id,
+                place,
+            };
+            self.shared.insert(*slicing_id, shared);
+        }
+        let set = CrownSet::new(source, &mut assets.images, &mut assets.buffers);
+        self.sets.insert(id, set);
+    }
+
+    /// Draws a slicing that is new, or was edited, from a set of its own.
+    fn settle_alone(&mut self, id: AssetId<Slicing>, slicing: &Slicing, assets: &mut CrownAssets) {
+        let kind = assets.kind(slicing);
+        let source = SetSource {
+            kind,
+            slicings: &[(id, slicing)],
+            data: data(slicing, kind.compressed),
+        };
+        self.settle(source, assets);
+    }
+
+    /// Takes a slicing out of its set, which goes with the last.
+    fn leave(&mut self, shared: &Shared) {
+        let Some(set) = self.sets.get_mut(&shared.set) else {
+            return;
+        };
+        set.members[shared.place] = None;
+        if set.members.iter().all(Option::is_none) {
+            self.sets.remove(&shared.set);
         }
     }
 
-    /// Follows a slicing that was edited.
-    fn renew(&mut self, slicing: &Slicing, wind: Vec3, assets: &mut CrownAssets) {
-        self.compressed = assets.compresses(slicing);
-        let [color, normal] = images(slicing, self.compressed);
-        let is_kept = [
-            assets.images.insert(self.color.id(), color).is_ok(),
-            assets.images.insert(self.normal.id(), normal).is_ok(),
-            assets
-                .buffers
-                .insert(self.octagons.id(), octagons(slicing))
-                .is_ok(),
-        ];
-        for (mesh, slots) in self.meshes.iter().zip(SLOTS_BY_NEARNESS) {
-            let mesh = assets
-                .meshes
-                .insert(mesh.id(), crown_mesh(slicing.shape(), slots));
-            debug_assert!(mesh.is_ok(), "handles keep their assets");
+    /// Makes what crowns of some settings need, if it is not there.
+    fn ensure(
+        &mut self,
+        id: AssetId<Slicing>,
+        settings: CrownSettings,
+        wind: Vec3,
+        assets: &mut CrownAssets,
+    ) {
+        let shared = self.shared.get(&id);
+        if let Some(set) = shared.and_then(|shared| self.sets.get_mut(&shared.set)) {
+            set.ensure(settings, wind, &mut assets.materials);
         }
-        debug_assert!(
-            is_kept.into_iter().all(|kept| kept),
-            "handles keep their assets"
-        );
-        self.bounds = bounds(slicing);
-        self.ball = (slicing.shape().centroid, slicing.shape().radius);
-        self.has_parts = widest(slicing.shape()) > 0.0;
-        for (settings, material) in self.each_material() {
-            if let Some(mut material) = assets.materials.get_mut(material) {
-                material.crown = CrownUniform::new(slicing.shape(), settings, wind);
-                material.compressed = self.compressed;
-            }
+    }
+
+    /// What a crown is drawn with, far away or near by; nothing before it was given anything.
+    pub(crate) fn look(
+        &self,
+        id: AssetId<Slicing>,
+        settings: &CrownSettings,
+        is_near: bool,
+    ) -> Option<Look> {
+        let shared = self.shared.get(&id)?;
+        let materials = self.sets.get(&shared.set)?.materials(settings)?;
+        let i = usize::from(is_near);
+        let mesh = Mesh3d(shared.meshes[i].clone());
+        Some((mesh, MeshMaterial3d(materials[i].clone())))
+    }
+
+    /// Slicings, and what they are drawn from.
+    pub(crate) fn placed(&self) -> impl Iterator<Item = Placed> {
+        self.shared.iter().filter_map(|(id, shared)| {
+            let set = self.sets.get(&shared.set)?;
+            Some(Placed {
+                id: *id,
+                kind: set.kind,
+                layers: shared.layers,
+                age: shared.age,
+                set: shared.set,
+                set_layers: set.layers,
+            })
+        })
+    }
+
+    /// Forgets what no crown uses any more.
+    fn keep(&mut self, used: &HashSet<(AssetId<Slicing>, CrownSettings)>) {
+        let mut is_used: HashSet<(u32, CrownSettings)> = HashSet::default();
+        let mut slicings: HashSet<AssetId<Slicing>> = HashSet::default();
+        for (id, settings) in used {
+            slicings.insert(*id);
+            is_used.extend(self.shared.get(id).map(|shared| (shared.set, *settings)));
+        }
+        let gone: Vec<_> = (self.shared)
+            .extract_if(|id, _| !slicings.contains(id))
+            .collect();
+        self.changes += gone.len() as u32;
+        for (_, shared) in &gone {
+            self.leave(shared);
+        }
+        for (id, set) in &mut self.sets {
+            set.keep(|settings| is_used.contains(&(*id, *settings)));
         }
     }
 
     fn each_material(
         &self,
     ) -> impl Iterator<Item = (&CrownSettings, &Handle<SlicedCrownMaterial>)> {
-        let all = self.materials.iter();
-        all.flat_map(|(settings, pair)| pair.iter().map(move |material| (settings, material)))
-    }
-
-    /// What a crown is drawn with, far away or near by; nothing before it was given anything.
-    pub(crate) fn look(&self, settings: &CrownSettings, is_near: bool) -> Option<Look> {
-        let i = usize::from(is_near);
-        let material = self.materials.get(settings)?[i].clone();
-        Some((Mesh3d(self.meshes[i].clone()), MeshMaterial3d(material)))
-    }
-
-    /// Makes what crowns of some settings need, if it is not there.
-    fn ensure(
-        &mut self,
-        slicing: &Slicing,
-        settings: CrownSettings,
-        wind: Vec3,
-        assets: &mut CrownAssets,
-    ) {
-        let make = |parts| {
-            assets.materials.add(SlicedCrownMaterial {
-                crown: CrownUniform::new(slicing.shape(), &settings, wind),
-                octagons: self.octagons.clone(),
-                color: self.color.clone(),
-                normal: self.normal.clone(),
-                settings,
-                // Until `follow_scene` says otherwise, in this very frame.
-                lighting: settings.lighting.into(),
-                tone_mapped: false,
-                compressed: self.compressed,
-                parts,
-            })
-        };
-        self.materials
-            .entry(settings)
-            .or_insert_with(|| [false, true].map(make));
+        self.sets.values().flat_map(CrownSet::each_material)
     }
 }
 
@@ -181,33 +232,38 @@ type Unattached = Or<(
     Changed<CrownSettings>,
 )>;
 
-/// Gives crowns whose slicing is there what they are drawn with. One whose slicing is not there yet keeps what it has.
+/// Gives crowns whose slicing is there what they are drawn with.
 pub(crate) fn attach(
     mut commands: Commands,
     mut library: ResMut<CrownLibrary>,
     mut assets: CrownAssets,
     slicings: Res<Assets<Slicing>>,
     wind: Res<Wind>,
-    crowns: Query<(Entity, &SlicedCrown, &CrownSettings), Unattached>,
+    crowns: Query<(Entity, &SlicedCrown, &CrownSettings)>,
+    unattached: Query<Entity, (Unattached, With<SlicedCrown>)>,
 ) {
-    if crowns.is_empty() {
-        return;
-    }
     let wind = wind.limited();
-    for (entity, SlicedCrown(handle), settings) in &crowns {
-        let Some(slicing) = slicings.get(handle) else {
-            continue;
+    let is_stale = core::mem::take(&mut library.is_stale);
+    let mut attach = |(entity, crown, settings): (Entity, &SlicedCrown, &CrownSettings)| {
+        let id = crown.0.id();
+        // One whose slicing is not there yet, or no more, keeps what it has.
+        let Some(slicing) = slicings.get(id) else {
+            return;
         };
-        let shared = library.shared.entry(handle.id());
-        let shared = shared.or_insert_with(|| Shared::new(slicing, &mut assets));
-        shared.ensure(slicing, *settings, wind, &mut assets);
-        let look = shared.look(settings, false);
-        let crown = (
-            look.expect("it is made"),
-            shared.bounds,
-            Nearness::default(),
-        );
-        commands.entity(entity).try_insert(crown);
+        if !library.shared.contains_key(&id) {
+            library.settle_alone(id, slicing, &mut assets);
+        }
+        library.ensure(id, *settings, wind, &mut assets);
+        if let Some(look) = library.look(id, settings, false) {
+            let bounds = library.shared[&id].bounds;
+            let drawn = (look, bounds, Nearness::default());
+            commands.entity(entity).try_insert(drawn);
+        }
+    };
+    if is_stale {
+        crowns.iter().for_each(&mut attach);
+    } else {
+        crowns.iter_many(&unattached).for_each(&mut attach);
     }
 }
 
@@ -218,7 +274,6 @@ pub(crate) fn follow_slicings(
     mut library: ResMut<CrownLibrary>,
     mut assets: CrownAssets,
     slicings: Res<Assets<Slicing>>,
-    wind: Res<Wind>,
 ) {
     let mut edited: HashSet<AssetId<Slicing>> = HashSet::default();
     for event in events.read() {
@@ -230,8 +285,11 @@ pub(crate) fn follow_slicings(
         edited.extend(library.shared.keys());
     }
     for id in &edited {
-        if let (Some(shared), Some(slicing)) = (library.shared.get_mut(id), slicings.get(*id)) {
-            shared.renew(slicing, wind.limited(), &mut assets);
+        if library.shared.contains_key(id)
+            && let Some(slicing) = slicings.get(*id)
+        {
+            library.settle_alone(*id, slicing, &mut assets);
+            library.is_stale = true;
         }
     }
 }
@@ -243,10 +301,9 @@ pub(crate) fn follow_wind(
     wind: Res<Wind>,
 ) {
     let wind = wind.limited().extend(0.0);
-    let all = library.shared.values();
-    for (_, material) in all.flat_map(Shared::each_material) {
+    for (_, material) in library.each_material() {
         if let Some(mut material) = materials.get_mut(material) {
-            material.crown.wind = wind;
+            material.set.wind = wind;
         }
     }
 }
@@ -263,8 +320,7 @@ pub(crate) fn follow_scene(
         camera.is_active && *mapping != Tonemapping::None
     };
     let tone_mapped = cameras.iter().any(is_mapped);
-    let all = library.shared.values();
-    for (settings, material) in all.flat_map(Shared::each_material) {
+    for (settings, material) in library.each_material() {
         let lighting = lights.lighting(settings.lighting);
         // Only what is written to counts as changed.
         if let Some(mut material) = materials.get_mut(material)
@@ -287,13 +343,12 @@ pub(crate) fn follow_sun(
         .filter(|(sun, _, visible)| sun.shadow_maps_enabled && visible.get())
         .max_by(|(a, ..), (b, ..)| a.illuminance.total_cmp(&b.illuminance));
     let to_sun = brightest.map_or(Vec3::ZERO, |(_, place, _)| place.back().as_vec3());
-    let all = library.shared.values();
-    for (_, material) in all.flat_map(Shared::each_material) {
+    for (_, material) in library.each_material() {
         // A day goes by without a new upload in each frame: half a degree is not seen.
         if let Some(mut material) = materials.get_mut(material)
-            && material.crown.sun.truncate().distance(to_sun) > 0.01
+            && material.set.sun.truncate().distance(to_sun) > 0.01
         {
-            material.crown.sun = to_sun.extend(0.0);
+            material.set.sun = to_sun.extend(0.0);
         }
     }
 }
@@ -331,12 +386,5 @@ pub(crate) fn forget(
         .iter()
         .map(|(crown, settings)| (crown.0.id(), *settings))
         .collect();
-    for (id, shared) in &mut library.shared {
-        shared
-            .materials
-            .retain(|settings, _| used.contains(&(*id, *settings)));
-    }
-    library
-        .shared
-        .retain(|_, shared| !shared.materials.is_empty());
+    library.keep(&used);
 }

@@ -1,7 +1,7 @@
 //! The material that draws crowns, in Bevy's own phases.
 //!
-//! Blended crowns are items of the transparent phase: sorted far to near among all that is transparent, and drawn as
-//! instances where neighbours in that order are of one slicing. Hashed ones are items of the alpha-mask phases.
+//! Blended crowns are items of the transparent phase: sorted far to near among all that is transparent, and drawn at once
+//! where neighbours in that order are of one set of slicings. Hashed ones are items of the alpha-mask phases.
 
 use bevy::asset::Asset;
 use bevy::image::Image;
@@ -36,32 +36,51 @@ pub(crate) struct OrientationUniform {
     high: Vec3,
 }
 
-/// A slicing's shape and its crowns' settings, as the shaders have them.
+/// What is the same for all slicings of a set, as the shaders have it.
+#[derive(Clone, Copy, Debug, ShaderType)]
+pub(crate) struct SetUniform {
+    /// Velocity of the wind.
+    pub(crate) wind: Vec4,
+    /// Direction to the brightest sun that casts shadows, or 0.
+    pub(crate) sun: Vec4,
+    pixels: u32,
+    left_out: u32,
+}
+
+impl SetUniform {
+    pub(crate) fn new(pixels: u32, settings: &CrownSettings, wind: Vec3) -> Self {
+        Self {
+            wind: wind.extend(0.0),
+            // Until `follow_sun` says otherwise, in this very frame.
+            sun: Vec4::ZERO,
+            pixels,
+            left_out: settings.left_out,
+        }
+    }
+}
+
+/// A slicing's shape, as the shaders have it.
 #[derive(Clone, Debug, ShaderType)]
-pub(crate) struct CrownUniform {
+pub(crate) struct CrownRecord {
     centroid: Vec3,
     radius: f32,
     /// Slices of each level, and the number of levels.
     levels: UVec4,
     switches: Vec2,
     correction: f32,
-    left_out: u32,
+    /// Layers of the set before its own.
+    first_layer: u32,
     orientation_count: u32,
     sphere: u32,
     vertical: u32,
     flexibility: f32,
-    pixels: u32,
     widest: f32,
     diffuse_transmission: f32,
-    /// Velocity of the wind.
-    pub(crate) wind: Vec4,
-    /// Direction to the brightest sun that casts shadows, or 0.
-    pub(crate) sun: Vec4,
     orientations: [OrientationUniform; MAX_ORIENTATIONS],
 }
 
-impl CrownUniform {
-    pub(crate) fn new(shape: &SlicingShape, settings: &CrownSettings, wind: Vec3) -> Self {
+impl CrownRecord {
+    pub(crate) fn new(shape: &SlicingShape, first_layer: u32) -> Self {
         let level = |i: usize| shape.levels.get(i).copied().unwrap_or(0);
         let switch = |i: usize| shape.switches.get(i).copied().unwrap_or(f32::MAX);
         let mut orientations = [OrientationUniform::default(); MAX_ORIENTATIONS];
@@ -80,36 +99,37 @@ impl CrownUniform {
             levels: UVec4::new(level(0), level(1), level(2), shape.levels.len() as u32),
             switches: Vec2::new(switch(0), switch(1)),
             correction: shape.correction,
-            left_out: settings.left_out,
+            first_layer,
             orientation_count: shape.orientations.len() as u32,
             sphere: shape.sphere.into(),
             vertical: shape.vertical.into(),
             flexibility: FLEXIBILITY * shape.radius,
-            pixels: shape.pixels,
             widest: widest(shape),
             diffuse_transmission: shape.diffuse_transmission,
-            wind: wind.extend(0.0),
-            // Until `follow_sun` says otherwise, in this very frame.
-            sun: Vec4::ZERO,
             orientations,
         }
     }
 }
 
-/// The material of all crowns of one slicing that have the same settings. Made by the plugin.
+/// The material of all crowns of a set of slicings that have the same settings. Made by the plugin.
 #[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
 #[bind_group_data(CrownKey)]
 pub struct SlicedCrownMaterial {
     #[uniform(0)]
-    pub(crate) crown: CrownUniform,
+    pub(crate) set: SetUniform,
+    /// A [`CrownRecord`] for each slicing.
     #[storage(1, read_only)]
+    pub(crate) crowns: Handle<ShaderBuffer>,
+    #[storage(2, read_only)]
     pub(crate) octagons: Handle<ShaderBuffer>,
-    #[texture(2, dimension = "2d_array")]
-    #[sampler(3)]
+    #[texture(3, dimension = "2d_array")]
+    #[sampler(4)]
     pub(crate) color: Handle<Image>,
-    #[texture(4, dimension = "2d_array")]
+    #[texture(5, dimension = "2d_array")]
     pub(crate) normal: Handle<Image>,
     pub(crate) settings: CrownSettings,
+    /// Whether light comes through leaves of any of the slicings from behind.
+    pub(crate) transmits: bool,
     /// What lights the crowns in this scene.
     pub(crate) lighting: SceneLighting,
     /// Whether cameras map tones.
@@ -130,7 +150,6 @@ pub struct CrownKey {
     parts: bool,
     compressed: bool,
     tone_mapped: bool,
-    /// Whether light comes through leaves from behind.
     transmits: bool,
 }
 
@@ -145,7 +164,7 @@ impl From<&SlicedCrownMaterial> for CrownKey {
             parts: material.parts,
             compressed: material.compressed,
             tone_mapped: material.tone_mapped,
-            transmits: material.crown.diffuse_transmission > 0.0,
+            transmits: material.transmits,
         }
     }
 }

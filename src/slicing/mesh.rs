@@ -7,7 +7,7 @@ use bevy::mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexFo
 use super::octagon::CORNERS;
 use super::slicing::SlicingShape;
 
-/// Number of the slice in drawing order times 8, plus the corner.
+/// The corner in 3 bits, the number of the slice in drawing order in 13, and above them which slicing of its set it is of.
 pub(crate) const ATTRIBUTE_CORNER: MeshVertexAttribute = MeshVertexAttribute::new(
     "Vertex_Slice_Corner",
     0x5645_5244_5552_4502,
@@ -20,9 +20,9 @@ pub(crate) fn most_slices(shape: &SlicingShape, slots: usize) -> u32 {
     pairs.max().unwrap_or(shape.levels[0]) * slots as u32
 }
 
-/// The mesh for a slicing, of which so many `slots` are drawn at once. Its positions are never drawn: they are corners of a box round the crown, with room to sway,
+/// The mesh for a slicing at a `place` in its set, of which so many `slots` are drawn at once. Its positions are never drawn: they are corners of a box round the crown, with room to sway,
 /// which tells Bevy the crown's bounds and the middle that it is sorted by.
-pub(crate) fn crown_mesh(shape: &SlicingShape, slots: usize) -> Mesh {
+pub(crate) fn crown_mesh(shape: &SlicingShape, slots: usize, place: u32) -> Mesh {
     let count = most_slices(shape, slots) * CORNERS as u32;
     let reach = 1.1 * shape.radius;
     let position = |vertex: u32| {
@@ -47,6 +47,11 @@ pub(crate) fn crown_mesh(shape: &SlicingShape, slots: usize) -> Mesh {
         Mesh::ATTRIBUTE_POSITION,
         (0..count).map(position).collect::<Vec<_>>(),
     )
-    .with_inserted_attribute(ATTRIBUTE_CORNER, (0..count).collect::<Vec<_>>())
+    .with_inserted_attribute(
+        ATTRIBUTE_CORNER,
+        (0..count)
+            .map(|corner| corner | place << 16)
+            .collect::<Vec<_>>(),
+    )
     .with_inserted_indices(Indices::U32(indices.collect()))
 }

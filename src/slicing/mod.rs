@@ -20,8 +20,10 @@
 //!
 //! # How crowns are sorted
 //! Blended crowns are items of Bevy's transparent phase rather than of a pass of their own: so they are in right order
-//! with all else that is transparent, in every view. Neighbours in that order that are of one slicing and the same
-//! settings are instances of one draw; a grove of one kind of tree is one draw.
+//! with all else that is transparent, in every view. Neighbours in that order that are of one set of slicings and the same
+//! settings are one draw. A set is made of all slicings in use of as many pixels a slice, as far as a texture array has layers, a
+//! moment after the last of them has come (`set.rs`, `gather.rs`), so that a grove of several kinds of trees is one draw; until
+//! then each slicing is a set of its own. Where a device draws nothing indirectly, several are drawn in turns.
 //!
 //! # Where this departs from the paper
 //! * Slices of a rank are drawn in the order of their orientations instead of the secondary before the primary one.
@@ -53,6 +55,7 @@ mod component;
 mod compression;
 mod document;
 mod error;
+mod gather;
 mod library;
 mod limits;
 mod loader;
@@ -63,6 +66,7 @@ pub mod octagon;
 mod octahedral;
 mod orientation;
 mod pyramid;
+mod set;
 #[expect(
     clippy::module_inception,
     reason = "the file of the type that the folder is named after"
@@ -139,6 +143,7 @@ impl Plugin for SlicingPlugin {
                 (
                     library::forget,
                     library::follow_slicings,
+                    gather::gather,
                     library::attach,
                     library::follow_scene,
                     library::follow_wind.run_if(resource_changed::<Wind>),

@@ -53,7 +53,7 @@ pub(crate) fn part_by_part(
             && settings.order == SliceOrder::Steady
             && eyes.iter().any(|eye| eye.distance(centroid) < reach);
         if nearness.0 != is_near
-            && let Some(look) = shared.look(settings, is_near)
+            && let Some(look) = library.look(crown.0.id(), settings, is_near)
         {
             nearness.0 = is_near;
             (*mesh, *material) = look;

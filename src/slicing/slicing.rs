@@ -1,5 +1,7 @@
 //! The baked crown: what is promised of it.
 
+use std::sync::Arc;
+
 use bevy::asset::Asset;
 use bevy::math::Vec3;
 use bevy::reflect::Reflect;
@@ -19,16 +21,17 @@ const MARGIN: f32 = 2.0;
 /// A crown baked into slicings, in several orientations and levels of detail. Bake one with
 /// [`bake`](super::bake()), or load a `*.slicing.ron` file; draw it with [`SlicedCrown`](super::SlicedCrown).
 ///
-/// Layers are counted by level of detail, then orientation, then slice, the one furthest from the eye first.
+/// Layers are counted by level of detail, then orientation, then slice, the one furthest from the eye first. Clones share their
+/// pictures.
 #[derive(Asset, Clone, Debug, PartialEq, Reflect)]
 #[reflect(opaque)]
 #[reflect(Clone, Debug, PartialEq)]
 pub struct Slicing {
     pub(super) shape: SlicingShape,
     /// sRGB colours with alpha: all pixels of the first layer row by row, then the next.
-    pub(super) color: Vec<[u8; 4]>,
+    pub(super) color: Arc<[[u8; 4]]>,
     /// Local normals, −1..1 as 0..255, and the light from around that comes in, 0..1 as 0..255.
-    pub(super) normal: Vec<[u8; 4]>,
+    pub(super) normal: Arc<[[u8; 4]]>,
     pub(super) octagons: Vec<Octagon>,
 }
 
@@ -202,8 +205,8 @@ impl Slicing {
             .collect();
         Self {
             shape,
-            color,
-            normal,
+            color: color.into(),
+            normal: normal.into(),
             octagons,
         }
     }

@@ -1,4 +1,4 @@
-//! A slicing as the GPU has it: two texture arrays and a buffer of outlines.
+//! Slicings as the GPU has them: two texture arrays, a buffer of outlines and one of shapes.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::primitives::Aabb;
@@ -8,6 +8,7 @@ use bevy::render::render_resource::{Extent3d, TextureFormat};
 use bevy::render::storage::ShaderBuffer;
 use bevy::tasks::{ComputeTaskPool, TaskPool};
 
+use super::material::CrownRecord;
 use super::octahedral::folded_pixel;
 use super::slicing::Slicing;
 use crate::texture_array::texture_array;
@@ -20,28 +21,49 @@ pub(crate) fn bounds(slicing: &Slicing) -> Aabb {
     Aabb::from_min_max(shape.centroid - reach, shape.centroid + reach)
 }
 
-/// The trimmed outlines of all layers.
-pub(crate) fn octagons(slicing: &Slicing) -> ShaderBuffer {
-    let corners = slicing.octagons().iter().flatten();
-    let numbers: Vec<f32> = corners.flat_map(|corner| corner.to_array()).collect();
+/// The trimmed outlines of all layers of slicings.
+pub(crate) fn octagons(slicings: &[&Slicing]) -> ShaderBuffer {
+    let octagons = slicings.iter().flat_map(|slicing| slicing.octagons());
+    let numbers: Vec<f32> = octagons
+        .flatten()
+        .flat_map(|corner| corner.to_array())
+        .collect();
     ShaderBuffer::new(bytemuck::cast_slice(&numbers), RenderAssetUsages::default())
 }
 
-/// The texture arrays of colours and of normals, `compressed` (BC3) or not.
-pub(crate) fn images(slicing: &Slicing, compressed: bool) -> [Image; 2] {
-    let shape = slicing.shape();
+/// The shapes of slicings of which the layers follow one another.
+pub(crate) fn records(slicings: &[&Slicing]) -> ShaderBuffer {
+    let mut first_layer = 0;
+    let records: Vec<CrownRecord> = slicings
+        .iter()
+        .map(|slicing| {
+            let record = CrownRecord::new(slicing.shape(), first_layer);
+            first_layer += slicing.shape().layers() as u32;
+            record
+        })
+        .collect();
+    ShaderBuffer::from(records)
+}
+
+/// The texture arrays of colours and of normals, `compressed` (BC3) or not, of so many pixels along a side; `data` are their
+/// bytes.
+pub(crate) fn images(
+    [color, normal]: [Vec<u8>; 2],
+    pixels: u32,
+    layers: u32,
+    compressed: bool,
+) -> [Image; 2] {
     let formats = if compressed {
         [TextureFormat::Bc3RgbaUnormSrgb, TextureFormat::Bc3RgbaUnorm]
     } else {
         [TextureFormat::Rgba8UnormSrgb, TextureFormat::Rgba8Unorm]
     };
     let size = Extent3d {
-        width: shape.pixels,
-        height: shape.pixels,
-        depth_or_array_layers: shape.layers() as u32,
+        width: pixels,
+        height: pixels,
+        depth_or_array_layers: layers,
     };
-    let mip_levels = shape.pixels.ilog2() + 1;
-    let [color, normal] = data(slicing, compressed);
+    let mip_levels = pixels.ilog2() + 1;
     // Slices of weight are seen at 30° or less from their normal, where a pixel is 1.15 times as long as wide: anisotropic
     // filtering would cost more than it shows.
     let sampler = ImageSamplerDescriptor::linear;
@@ -49,28 +71,44 @@ pub(crate) fn images(slicing: &Slicing, compressed: bool) -> [Image; 2] {
     [image(color, formats[0]), image(normal, formats[1])]
 }
 
-/// Layers with their mip levels, worked out side by side.
-fn data(slicing: &Slicing, compressed: bool) -> [Vec<u8>; 2] {
-    let side = slicing.shape().pixels;
+/// The bytes of both texture arrays of a slicing: layers with their mip levels, worked out side by side.
+pub(crate) fn data(slicing: &Slicing, compressed: bool) -> [Vec<u8>; 2] {
     let pool = ComputeTaskPool::get_or_init(TaskPool::new);
     let layers = pool.scope(|scope| {
         for layer in 0..slicing.shape().layers() {
-            scope.spawn(async move {
-                let [color, normal] = slicing.levels(layer);
-                if compressed {
-                    let normal: Vec<_> = normal.into_iter().map(folded_pixel).collect();
-                    [
-                        compress(&color, side, Channels::Colors),
-                        compress(&normal, side, Channels::Numbers),
-                    ]
-                } else {
-                    [color, normal].map(|levels| levels.as_flattened().to_vec())
-                }
-            });
+            scope.spawn(async move { layer_data(slicing, layer, compressed) });
         }
     });
     let (colors, normals): (Vec<_>, Vec<_>) = layers.into_iter().map(<(_, _)>::from).unzip();
     [colors.concat(), normals.concat()]
+}
+
+/// The same of slicings that follow one another, worked out one by one, behind the frames.
+pub(crate) fn data_behind(slicings: &[Slicing], compressed: bool) -> [Vec<u8>; 2] {
+    let mut data = [Vec::new(), Vec::new()];
+    for slicing in slicings {
+        for layer in 0..slicing.shape().layers() {
+            let layer = layer_data(slicing, layer, compressed);
+            for (all, bytes) in data.iter_mut().zip(&layer) {
+                all.extend_from_slice(bytes);
+            }
+        }
+    }
+    data
+}
+
+/// The bytes of a layer's colours and normals.
+fn layer_data(slicing: &Slicing, layer: usize, compressed: bool) -> [Vec<u8>; 2] {
+    let side = slicing.shape().pixels;
+    let [color, normal] = slicing.levels(layer);
+    if !compressed {
+        return [color, normal].map(|levels| levels.as_flattened().to_vec());
+    }
+    let normal: Vec<_> = normal.into_iter().map(folded_pixel).collect();
+    [
+        compress(&color, side, Channels::Colors),
+        compress(&normal, side, Channels::Numbers),
+    ]
 }
 
 #[cfg(test)]
@@ -83,17 +121,24 @@ mod tests {
     fn images_take_the_bytes_that_are_told_and_compressed_ones_a_quarter() {
         let slicing = leaves(64);
         let bytes = |compressed| -> u64 {
-            let images = images(&slicing, compressed);
-            images
-                .iter()
-                .map(|image| image.data.as_ref().map_or(0, Vec::len) as u64)
-                .sum()
+            let data = data(&slicing, compressed);
+            data.iter().map(|bytes| bytes.len() as u64).sum()
         };
         for compressed in [false, true] {
             assert_eq!(bytes(compressed), slicing.gpu_bytes(compressed));
         }
         // A quarter, and whole blocks for the levels of 2 and 1 pixels.
         assert!(bytes(true) as f64 <= 0.26 * bytes(false) as f64);
+    }
+
+    #[test]
+    fn slicings_that_follow_one_another_are_the_bytes_of_each() {
+        let slicings = [leaves(16), leaves(16)];
+        for compressed in [false, true] {
+            let together = data_behind(&slicings, compressed);
+            let alone = data(&slicings[0], compressed);
+            assert_eq!(together, alone.map(|bytes| bytes.repeat(2)), "{compressed}");
+        }
     }
 
     #[test]

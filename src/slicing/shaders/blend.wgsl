@@ -2,7 +2,7 @@
 
 // View blending (§2.3), function by function what blend/ is.
 
-#import bevy_verdure::slicing::types::crown
+#import bevy_verdure::slicing::types::{crowns, which}
 
 const SLOTS: u32 = 3u;
 const RISE: vec2<f32> = vec2(0.5, 0.866);
@@ -43,11 +43,11 @@ fn swapped(slots: array<Slot, 3>, a: u32, b: u32) -> array<Slot, 3> {
 }
 
 fn upright_count() -> u32 {
-    return crown.orientation_count - select(0u, 1u, crown.vertical != 0u && crown.orientation_count > 1u);
+    return crowns[which].orientation_count - select(0u, 1u, crowns[which].vertical != 0u && crowns[which].orientation_count > 1u);
 }
 
 fn is_upright(towards: vec3<f32>) -> bool {
-    return crown.sphere == 0u && abs(towards.y) < 0.01;
+    return crowns[which].sphere == 0u && abs(towards.y) < 0.01;
 }
 
 // The four orientations of least discrepancy angle, the nearest first.
@@ -60,7 +60,7 @@ fn nearest(eye: vec3<f32>) -> Nearest {
     var orientations = vec4(0u);
     var cosines = vec4(-2.0);
     for (var i = 0u; i < upright_count(); i += 1u) {
-        let cosine = dot(crown.orientations[i].direction, eye);
+        let cosine = dot(crowns[which].orientations[i].direction, eye);
         if cosine > cosines.x {
             orientations = vec4(i, orientations.xyz);
             cosines = vec4(cosine, cosines.xyz);
@@ -82,7 +82,7 @@ fn slots(eye: vec3<f32>) -> array<Slot, 3> {
 #ifdef CROWN_PAPER_ORDER
     let vertical = false;
 #else
-    let vertical = crown.vertical != 0u;
+    let vertical = crowns[which].vertical != 0u;
 #endif
     let found = nearest(eye);
     let cosines = found.cosines;
@@ -90,7 +90,7 @@ fn slots(eye: vec3<f32>) -> array<Slot, 3> {
     slots[0].orientation = found.orientations.x;
     slots[1].orientation = found.orientations.y;
     slots[2].orientation = found.orientations.z;
-    if crown.sphere != 0u {
+    if crowns[which].sphere != 0u {
         let angles = acos(clamp(cosines, vec4(-1.0), vec4(1.0)));
         let gains = max(angles.www - angles.xyz, vec3(1e-6));
         let weights = gains / (gains.x + gains.y + gains.z);
@@ -101,13 +101,13 @@ fn slots(eye: vec3<f32>) -> array<Slot, 3> {
         var primary = 1.0;
         if upright_count() > 1u {
             primary = primary_opacity(
-                crown.orientations[slots[0].orientation].direction,
-                crown.orientations[slots[1].orientation].direction, eye, ALONE);
+                crowns[which].orientations[slots[0].orientation].direction,
+                crowns[which].orientations[slots[1].orientation].direction, eye, ALONE);
         }
         let rise = select(0.0, smoothstep(RISE.x, RISE.y, abs(eye.y)), vertical);
         slots[0].weight = primary * (1.0 - rise);
         slots[1].weight = (1.0 - primary) * (1.0 - rise);
-        slots[2] = Slot(crown.orientation_count - 1u, rise);
+        slots[2] = Slot(crowns[which].orientation_count - 1u, rise);
     }
 #ifdef CROWN_PAPER_ORDER
     let kept = slots[0];
@@ -124,12 +124,12 @@ fn levels(distance: f32) -> vec2<f32> {
 #ifdef CROWN_PAPER_ORDER
     return vec2(0.0, 1.0);
 #else
-    let passed = vec2(distance) >= crown.switches * (1.0 + FADE);
+    let passed = vec2(distance) >= crowns[which].switches * (1.0 + FADE);
     let level = u32(passed.x) + u32(passed.y);
-    if level + 1u >= crown.levels.w {
+    if level + 1u >= crowns[which].levels.w {
         return vec2(f32(level), 1.0);
     }
-    let at = crown.switches[level];
+    let at = crowns[which].switches[level];
     return vec2(f32(level), 1.0 - smoothstep(at * (1.0 - FADE), at * (1.0 + FADE), distance));
 #endif
 }

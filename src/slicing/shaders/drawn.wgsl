@@ -2,7 +2,7 @@
 
 // Which slices are drawn, and which cast shadows: what becomes of the slicings' weights (blend/mod.rs, blend/cast.rs).
 
-#import bevy_verdure::slicing::types::crown
+#import bevy_verdure::slicing::types::{crowns, which, crown_set}
 #import bevy_verdure::slicing::blend::{SLOTS, corrected, levels, slanted, slots}
 #import bevy_verdure::slicing::parts::{PART_SLOTS, part_slot}
 
@@ -28,7 +28,7 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32, deviation: vec2
     var share = detail.y;
     var place = number;
     if share < 1.0 {
-        let coarse = crown.levels[level + 1u] * PLACES;
+        let coarse = crowns[which].levels[level + 1u] * PLACES;
         if place < coarse {
             level += 1u;
             share = 1.0 - share;
@@ -36,10 +36,10 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32, deviation: vec2
             place -= coarse;
         }
     }
-    let count = crown.levels[level];
+    let count = crowns[which].levels[level];
     let rank = place / PLACES;
     // One is always left, or far crowns would be gone.
-    if rank >= count || rank < min(crown.left_out, count - 1u) {
+    if rank >= count || rank < min(crown_set.left_out, count - 1u) {
         return DrawnSlice(0u, 0u, 0u, 0.0);
     }
 #ifdef CROWN_PARTS
@@ -55,14 +55,14 @@ fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32, deviation: vec2
         slot = slots[2];
     }
 #endif
-    let towards = crown.orientations[slot.orientation].direction;
+    let towards = crowns[which].orientations[slot.orientation].direction;
     let faces = dot(towards, direction) >= 0.0;
     return DrawnSlice(
         slot.orientation,
         level,
         select(count - 1u - rank, rank, faces),
 #ifdef CROWN_PAPER_ORDER
-        corrected(slot.weight * share, greatest, crown.correction),
+        corrected(slot.weight * share, greatest, crowns[which].correction),
 #else
         slanted(slot.weight * share, towards, direction),
 #endif
@@ -75,16 +75,16 @@ fn cast_slice(number: u32, direction: vec3<f32>) -> DrawnSlice {
 #ifdef CROWN_PAPER_ORDER
     let level = 0u;
 #else
-    let level = crown.levels.w - 1u;
+    let level = crowns[which].levels.w - 1u;
 #endif
-    let count = crown.levels[level];
+    let count = crowns[which].levels[level];
     if number >= count {
         return DrawnSlice(0u, 0u, 0u, 0.0);
     }
     var nearest = 0u;
     var greatest = -2.0;
-    for (var i = 0u; i < crown.orientation_count; i += 1u) {
-        let cosine = dot(crown.orientations[i].direction, direction);
+    for (var i = 0u; i < crowns[which].orientation_count; i += 1u) {
+        let cosine = dot(crowns[which].orientations[i].direction, direction);
         if cosine > greatest {
             nearest = i;
             greatest = cosine;

@@ -7,7 +7,6 @@
 #import bevy_pbr::mesh_bindings::mesh
 #import bevy_verdure::slicing::place::{Corner, Varying, place_corner, is_orthographic}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
-#import bevy_verdure::slicing::types::crown
 #import bevy_verdure::slicing::lots::{cells, footprint, lot_of}
 #import bevy_verdure::lighting::simple::{Leaf, simple_light, transmission_of}
 
@@ -49,7 +48,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let facing = slice_facing(in);
     input.material.perceptual_roughness = 0.75;
     input.material.reflectance = vec3(0.3);
-    input.material.diffuse_transmission = crown.diffuse_transmission;
+    input.material.diffuse_transmission = in.tint.w;
     input.world_normal = facing.normal;
     input.N = facing.normal;
     input.is_orthographic = is_orthographic();
@@ -60,7 +59,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
 #else ifdef CROWN_SIMPLE_LIGHT
     let facing = slice_facing(in);
     let leaf = Leaf(
-        in.world_position, facing.normal, 0.0, facing.occlusion, transmission_of(crown.diffuse_transmission), 0.0,
+        in.world_position, facing.normal, 0.0, facing.occlusion, transmission_of(in.tint.w), 0.0,
         in.position.xy, in.layer, input.flags);
     var color = vec4(simple_light(leaf, seen.rgb), seen.a);
 #else

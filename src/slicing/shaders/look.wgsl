@@ -2,7 +2,7 @@
 
 // The fragment stage of all passes: what a slice looks like at a place.
 
-#import bevy_verdure::slicing::types::{crown, color_texture, normal_texture, slice_sampler}
+#import bevy_verdure::slicing::types::{color_texture, normal_texture, slice_sampler, crown_set}
 #import bevy_verdure::slicing::blend::covered
 #import bevy_verdure::slicing::parts::turned_weight
 #import bevy_verdure::slicing::place::Varying
@@ -17,7 +17,7 @@ struct Facing {
 fn slice_color(in: Varying) -> vec4<f32> {
 #ifdef CROWN_LIGHT_VIEW
     // One pixel says it all: by chance a place is there or not anyhow.
-    let size = i32(crown.pixels >> in.mip);
+    let size = i32(crown_set.pixels >> in.mip);
     let pixel = min(vec2<i32>(in.uv * f32(size)), vec2(size - 1));
     var color = textureLoad(color_texture, pixel, in.layer, in.mip);
 #else
@@ -29,7 +29,7 @@ fn slice_color(in: Varying) -> vec4<f32> {
 #else
     color.a = covered(color.a, in.opacity);
 #endif
-    color = vec4(color.rgb * in.tint, color.a);
+    color = vec4(color.rgb * in.tint.rgb, color.a);
 #endif
 #ifdef CROWN_FRAMES
 #ifndef PREPASS_PIPELINE
@@ -56,7 +56,7 @@ fn unfold(folded: vec2<f32>) -> vec3<f32> {
 fn slice_facing(in: Varying) -> Facing {
     // One pixel of the nearest level: opacity smooths over what filters would, at a fifth of their cost.
     let mip = u32(in.lod + 0.5);
-    let size = i32(crown.pixels >> mip);
+    let size = i32(crown_set.pixels >> mip);
     let pixel = min(vec2<i32>(in.uv * f32(size)), vec2(size - 1));
     let baked = textureLoad(normal_texture, pixel, in.layer, mip);
 #ifdef CROWN_COMPRESSED

@@ -2,7 +2,7 @@
 
 // The discrepancy angle part by part (§4), function by function what blend/parts.rs is.
 
-#import bevy_verdure::slicing::types::crown
+#import bevy_verdure::slicing::types::{crowns, which}
 #import bevy_verdure::slicing::blend::{RISE, Slot, nearest, slots, upright_count}
 
 // Cosine of the angle between two orientations beyond which neither is beside the other.
@@ -40,8 +40,8 @@ fn part_weight(orientation: u32, direction: vec3<f32>) -> f32 {
 
 // Where a direction is among orientations, for one of them, of which the weight can be told by `turned_weight`.
 fn part_turn(orientation: u32, direction: vec3<f32>) -> vec2<f32> {
-    let rise = select(0.0, smoothstep(RISE.x, RISE.y, abs(direction.y)), crown.vertical != 0u);
-    let towards = crown.orientations[orientation].direction;
+    let rise = select(0.0, smoothstep(RISE.x, RISE.y, abs(direction.y)), crowns[which].vertical != 0u);
+    let towards = crowns[which].orientations[orientation].direction;
     if abs(towards.y) > 0.999 {
         return vec2(0.0, 1.0 - rise);
     }
@@ -51,7 +51,7 @@ fn part_turn(orientation: u32, direction: vec3<f32>) -> vec2<f32> {
     var next = 0.0;
     var greatest = -2.0;
     for (var i = 0u; i < count; i += 1u) {
-        let other = crown.orientations[i].direction;
+        let other = crowns[which].orientations[i].direction;
         greatest = max(greatest, dot(other, direction));
         let cosine = dot(other, towards);
         let angle = atan2(dot(other, right), cosine);
@@ -71,7 +71,7 @@ fn turned_weight(turn: vec2<f32>) -> f32 {
 
 // Whether an orientation counts for any part.
 fn counts(orientation: u32, direction: vec3<f32>, deviation: vec2<f32>) -> bool {
-    let towards = crown.orientations[orientation].direction;
+    let towards = crowns[which].orientations[orientation].direction;
     if abs(towards.y) > 0.999 {
         // The vertical one shows either side.
         let side = select(towards, -towards, direction.y < 0.0);
@@ -80,7 +80,7 @@ fn counts(orientation: u32, direction: vec3<f32>, deviation: vec2<f32>) -> bool 
     let level = vec3(direction.x, 0.0, direction.z);
     let cosine = max(length(level), 1e-6);
     let lowest = part_direction(direction, level / cosine, deviation);
-    if crown.vertical != 0u && abs(lowest.y) >= RISE.y {
+    if crowns[which].vertical != 0u && abs(lowest.y) >= RISE.y {
         return false;
     }
     // The sine of the widest turn of azimuth in a cone round the direction.
@@ -97,7 +97,7 @@ fn part_slot(number: u32, direction: vec3<f32>, deviation: vec2<f32>) -> Slot {
     let found = nearest(direction).orientations;
     let low = min(found.x, min(found.y, found.z));
     let high = max(found.x, max(found.y, found.z));
-    let sorted = array(low, found.x + found.y + found.z - low - high, high, crown.orientation_count - 1u);
+    let sorted = array(low, found.x + found.y + found.z - low - high, high, crowns[which].orientation_count - 1u);
     let orientation = sorted[number];
     // Of few orientations some are named twice.
     if number > 0u && orientation == sorted[max(number, 1u) - 1u] {

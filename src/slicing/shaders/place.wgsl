@@ -6,7 +6,7 @@
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_render::globals::Globals
 #import bevy_render::maths::mat2x4_f32_to_mat3x3_unpack
-#import bevy_verdure::slicing::types::{crown, octagons, first_layer}
+#import bevy_verdure::slicing::types::{crowns, which, octagons, first_layer, crown_set}
 #import bevy_verdure::slicing::blend::FOCAL
 #import bevy_verdure::slicing::drawn::{cast_slice, drawn_slice}
 #import bevy_verdure::slicing::cast::facing
@@ -38,6 +38,7 @@ const LEAVES: f32 = 64.0;
 
 struct Corner {
     @builtin(instance_index) instance_index: u32,
+    // The corner in 3 bits, the number of the slice in 13, and which slicing it is of.
     @location(0) corner: u32,
 }
 
@@ -68,8 +69,8 @@ struct Varying {
     // Where the direction from a part to the eye is among orientations.
     @location(14) turn: vec2<f32>,
 #endif
-    // In linear light.
-    @location(5) @interpolate(flat) tint: vec3<f32>,
+    // In linear light; w: the share of the sun's that comes through from behind.
+    @location(5) @interpolate(flat) tint: vec4<f32>,
     @location(6) world_position: vec3<f32>,
     // Columns of the matrix that turns baked normals into those seen, in world space.
     @location(7) @interpolate(flat) turn_x: vec3<f32>,
@@ -118,7 +119,7 @@ fn eye_from_centroid(instance_index: u32) -> vec3<f32> {
     }
     let m = mesh[instance_index].world_from_local;
     let origin = vec3(m[0].w, m[1].w, m[2].w);
-    return (to_local * (view.world_position - origin) - crown.centroid) / crown.radius;
+    return (to_local * (view.world_position - origin) - crowns[which].centroid) / crowns[which].radius;
 }
 
 // How many world metres a local one is.
@@ -135,7 +136,7 @@ fn pixels_per_metre() -> f32 {
 // How many radii away a crown would be as small as it is here, on the screen that levels of detail are made for.
 fn apparent_distance(instance_index: u32, distance: f32) -> f32 {
     if is_orthographic() {
-        return FOCAL / (crown.radius * metre(instance_index) * pixels_per_metre());
+        return FOCAL / (crowns[which].radius * metre(instance_index) * pixels_per_metre());
     }
     return distance * FOCAL / pixels_per_metre();
 }
@@ -145,8 +146,8 @@ fn apparent_distance(instance_index: u32, distance: f32) -> f32 {
 fn mip_level(size: f32, distance: f32, instance_index: u32) -> f32 {
     let away = select(distance * metre(instance_index), 1.0, is_orthographic());
     let pixels = size * metre(instance_index) * pixels_per_metre() / max(away, 1e-6);
-    let most = f32(firstLeadingBit(crown.pixels));
-    let level = clamp(log2(f32(crown.pixels) / pixels), 0.0, most);
+    let most = f32(firstLeadingBit(crown_set.pixels));
+    let level = clamp(log2(f32(crown_set.pixels) / pixels), 0.0, most);
     return floor(level) + saturate(4.0 * fract(level) - 1.5);
 }
 
@@ -155,24 +156,27 @@ fn place_corner(in: Corner) -> Varying {
     // What is not drawn collapses to a point outside the view.
     out.position = vec4(0.0, 0.0, -2.0, 1.0);
     out.instance_index = in.instance_index;
+    which = in.corner >> 16u;
+    let number = (in.corner >> 3u) & 0x1fffu;
     let eye = eye_from_centroid(in.instance_index);
     let distance = length(eye);
     let direction = select(vec3(0.0, 0.0, 1.0), eye / distance, distance > 0.0);
 #ifdef CROWN_LIGHT_VIEW
-    let slice = cast_slice(in.corner >> 3u, direction);
+    let slice = cast_slice(number, direction);
 #else
     let apparent = apparent_distance(in.instance_index, distance);
     // From far, all parts are seen from one direction.
-    let differ = deviation(select(distance, 1e9, is_orthographic()), crown.widest, length(direction.xz));
-    let slice = drawn_slice(in.corner >> 3u, direction, apparent, differ);
+    let differ = deviation(select(distance, 1e9, is_orthographic()), crowns[which].widest, length(direction.xz));
+    let slice = drawn_slice(number, direction, apparent, differ);
 #endif
     if slice.opacity <= 0.0 {
         return out;
     }
-    let o = crown.orientations[slice.orientation];
+    let o = crowns[which].orientations[slice.orientation];
     let faces = dot(o.direction, direction) >= 0.0;
-    let count = crown.levels[slice.level];
-    let layer = first_layer(slice.level, slice.orientation) + slice.index;
+    let count = crowns[which].levels[slice.level];
+    let own_layer = first_layer(slice.level, slice.orientation) + slice.index;
+    let layer = crowns[which].first_layer + own_layer;
     let pair = octagons[layer * 4u + (in.corner & 7u) / 2u];
 #ifdef CROWN_FRAMES
     // The whole quad, so that its frame shows.
@@ -189,19 +193,19 @@ fn place_corner(in: Corner) -> Varying {
     let flat = o.right * (o.low.x + uv.x * size.x) + o.up * (o.high.y - uv.y * size.y);
 #ifdef CROWN_LIGHT_VIEW
     let middle = 0.5 * o.direction * (o.low.z + o.high.z);
-    let local = crown.centroid + middle + facing(o, direction, flat);
+    let local = crowns[which].centroid + middle + facing(o, direction, flat);
 #else
-    let local = crown.centroid + flat + o.direction * depth;
+    let local = crowns[which].centroid + flat + o.direction * depth;
 #endif
 
     let m = mesh[in.instance_index].world_from_local;
     let origin = vec3(m[0].w, m[1].w, m[2].w);
     var moved = vec3(0.0);
-    if any(crown.wind.xyz != vec3(0.0)) {
-        let foot_height = crown.centroid.y - crown.radius;
-        let height = clamp((local.y - foot_height) / (2.0 * crown.radius), 0.0, 1.0);
+    if any(crown_set.wind.xyz != vec3(0.0)) {
+        let foot_height = crowns[which].centroid.y - crowns[which].radius;
+        let height = clamp((local.y - foot_height) / (2.0 * crowns[which].radius), 0.0, 1.0);
         // Flexibility is in local metres.
-        moved = sway(crown.wind.xyz, origin, height, crown.flexibility * metre(in.instance_index), globals.time);
+        moved = sway(crown_set.wind.xyz, origin, height, crowns[which].flexibility * metre(in.instance_index), globals.time);
         // Near slices move more than far ones, each in its own time.
         let from_far = select(count - 1u - slice.index, slice.index, faces);
         let nearness = (f32(from_far) + 0.5) / f32(count);
@@ -219,14 +223,14 @@ fn place_corner(in: Corner) -> Varying {
     out.opacity *= TONE_MAPPED;
 #endif
     let tag = mesh[in.instance_index].tag;
-    out.lot = pcg(layer + (tag >> 24u) * 256u);
+    out.lot = pcg(own_layer + (tag >> 24u) * 256u);
 #ifdef VISIBILITY_RANGE_DITHER
     out.dither = get_visibility_range_dither_level(in.instance_index, vec4(origin, 1.0));
 #endif
 #ifdef CROWN_LIGHT_VIEW
     let width = max(size.x, size.y) * metre(in.instance_index) * pixels_per_metre();
     let across = cells(1.0 / width);
-    out.mip = u32(max(log2(f32(crown.pixels) / across), 0.0));
+    out.mip = u32(max(log2(f32(crown_set.pixels) / across), 0.0));
     // Lots of whole leaves, not of pixels: what shades is as large as leaves are, or the crown would look strewn with salt.
     out.grid = min(across, LEAVES);
     let next = f32(select(slice.index, count - 1u - slice.index, faces));
@@ -235,12 +239,12 @@ fn place_corner(in: Corner) -> Varying {
     let axes = vec3(dot(direction, o.right), dot(direction, o.up), dot(direction, o.direction));
     out.deep = 0.5 / length(axes / size) * metre(in.instance_index) * view.clip_from_view[2].z;
 #else
-    out.lod = mip_level(max(size.x, size.y), length(eye * crown.radius - o.direction * depth), in.instance_index);
+    out.lod = mip_level(max(size.x, size.y), length(eye * crowns[which].radius - o.direction * depth), in.instance_index);
 #ifdef CROWN_PARTS
-    let ray = normalize(eye * crown.radius - (local - crown.centroid));
+    let ray = normalize(eye * crowns[which].radius - (local - crowns[which].centroid));
     out.turn = part_turn(slice.orientation, part_direction(direction, ray, differ));
 #endif
-    out.tint = tint(tag);
+    out.tint = vec4(tint(tag), crowns[which].diffuse_transmission);
     out.world_position = from_eye + view.world_position;
     let front = select(-o.direction, o.direction, faces);
     let turn = turn_of_normals(in.instance_index);
@@ -253,8 +257,8 @@ fn place_corner(in: Corner) -> Varying {
 #ifndef PREPASS_PIPELINE
     let to_eye = normalize(world_from_local(in.instance_index) * direction);
     let metres = metre(in.instance_index);
-    let near = dot(to_eye, crown.sun.xyz);
-    out.world_position += towards_sun(front, direction, near, spacing * metres, size.z * metres) * crown.sun.xyz;
+    let near = dot(to_eye, crown_set.sun.xyz);
+    out.world_position += towards_sun(front, direction, near, spacing * metres, size.z * metres) * crown_set.sun.xyz;
 #else
     // Moved likewise in the frame before, so that motion vectors leave wind out.
     out.local_position = local + local_from_world(in.instance_index) * moved;

@@ -3,7 +3,7 @@
 // How the leaves of a slice are lit for an eye above or below, or with the sun behind it, function by function what blend/seen.rs is.
 
 #import bevy_verdure::slicing::blend::is_upright
-#import bevy_verdure::slicing::types::crown
+#import bevy_verdure::slicing::types::{crowns, which}
 
 const LEAN: f32 = 1.5;
 const LEAN_DOWN: f32 = 0.5;
@@ -14,7 +14,7 @@ const HEIGHTS: vec2<f32> = vec2(-0.2, 0.5);
 const EVEN_HEIGHT: f32 = 0.19;
 
 fn leaning(front: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
-    if crown.sphere != 0u {
+    if crowns[which].sphere != 0u {
         return front;
     }
     let elevation = asin(clamp(direction.y, -1.0, 1.0));

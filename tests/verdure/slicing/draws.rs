@@ -81,7 +81,7 @@ fn grove(crowns: u32, assets: usize) -> Frame {
 }
 
 #[test]
-fn crowns_of_one_asset_are_one_draw_and_of_two_one_for_each_turn_in_their_order() {
+fn crowns_of_one_asset_are_one_draw_and_of_two_at_first_one_for_each_turn_in_their_order() {
     for crowns in [128, 1000] {
         let (one, two) = (grove(crowns, 1), grove(crowns, 2));
         println!("{crowns} crowns: of one asset {one:?}, of two {two:?}");

@@ -14,6 +14,7 @@ mod models;
 mod near;
 mod parts;
 mod passes;
+mod sets;
 mod steady;
 mod twins;
 mod twins_of_blending;

@@ -25,14 +25,15 @@ struct Shape {
     orientations: array<Facing, 32>,
 }
 
-var<private> crown: Shape;
+var<private> crowns: array<Shape, 1>;
+var<private> which: u32;
 
 fn work(i: u32) {
-    crown.orientation_count = u32(cases[i][0]);
-    crown.vertical = u32(cases[i][1]);
-    crown.sphere = u32(cases[i][2]);
-    for (var k = 0u; k < crown.orientation_count; k += 1u) {
-        crown.orientations[k].direction = vector(i, 11u + 3u * k);
+    crowns[0].orientation_count = u32(cases[i][0]);
+    crowns[0].vertical = u32(cases[i][1]);
+    crowns[0].sphere = u32(cases[i][2]);
+    for (var k = 0u; k < crowns[0].orientation_count; k += 1u) {
+        crowns[0].orientations[k].direction = vector(i, 11u + 3u * k);
     }
     let eye = vector(i, 3u);
     let most = deviation(cases[i][9], cases[i][10], length(eye.xz));
@@ -51,7 +52,7 @@ fn work(i: u32) {
         results[i][12u + 3u * k] = slot.weight;
         results[i][13u + 3u * k] = turned_weight(part_turn(slot.orientation, part));
     }
-    let front = crown.orientations[0].direction;
+    let front = crowns[0].orientations[0].direction;
     results[i][23] = slanted(0.7, front, eye);
     put(i, 24u, turned(vector(i, 6u), front, leaning(front, eye)));
     results[i][27] = towards_sun(front, eye, dot(eye, vector(i, 6u)), 0.4, 1.2);
