@@ -2,12 +2,14 @@
 
 mod agreement;
 mod edits;
+mod fog;
 mod lighting;
 mod models;
 mod passes;
 mod selection;
 mod skinned;
 mod steady;
+mod through;
 mod turns;
 mod twins;
 mod uploads;
