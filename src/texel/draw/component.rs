@@ -48,7 +48,7 @@ pub const ATTRIBUTE_HEIGHT_VECTOR: MeshVertexAttribute = MeshVertexAttribute::ne
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 #[require(TexelSettings, Transform, Visibility)]
 pub struct TexelSurface {
-    /// What it is covered with.
+    /// What it is covered with. Edits show in the frame after; one that is taken away stays until another is in its place.
     pub volume: Handle<TexelVolume>,
     /// Length of the height vectors where the mesh has none, in the mesh's units. Where it is not finite and above 0 the mesh
     /// carries no texels, with an error, even if it has height vectors.

@@ -86,6 +86,8 @@ struct SharedVolume {
     boxes: Arc<SliceBoxes>,
     /// Colours and normals across u, v and w.
     images: [[Handle<Image>; 2]; 3],
+    /// Whether the volume itself has been taken away since.
+    is_gone: bool,
 }
 
 /// What is on the GPU, as long as a surface uses it.
@@ -255,6 +257,7 @@ impl TexelLibrary {
                 measure,
                 boxes: Arc::new(SliceBoxes::of(&sets)),
                 images,
+                is_gone: false,
             };
             self.volumes.insert(key, shared);
         }
@@ -266,6 +269,23 @@ impl TexelLibrary {
         self.volumes.retain(|key, _| key.id != id);
         self.materials.retain(|keys, _| keys.volume.id != id);
         self.is_stale = true;
+    }
+
+    /// Notes that a volume was taken away. What was made of it stays as long as a surface shows it.
+    pub(crate) fn lose_volume(&mut self, id: AssetId<TexelVolume>) {
+        for (key, volume) in &mut self.volumes {
+            volume.is_gone |= key.id == id;
+        }
+    }
+
+    /// Forgets what was made of a volume that was taken away, for there is one in its place. Of one that is simply new nothing is
+    /// forgotten: it may have been cut in the frame in which it came, before that was told.
+    pub(crate) fn regain_volume(&mut self, id: AssetId<TexelVolume>) {
+        let is_of_the_old =
+            |(key, volume): (&VolumeKey, &SharedVolume)| key.id == id && volume.is_gone;
+        if self.volumes.iter().any(is_of_the_old) {
+            self.forget_volume(id);
+        }
     }
 
     /// Tells all materials of a change of wind.

@@ -41,6 +41,8 @@
 //! than there are, or height vectors differ much over it, gaps may show: subdivide the mesh. Storage buffers in the vertex stage
 //! are required, so WebGL 2 is out.
 
+#[cfg(test)]
+mod allocations;
 mod commands;
 mod component;
 mod geometry;

@@ -192,7 +192,8 @@ pub(crate) fn attach(
     }
 }
 
-/// Follows meshes and volumes that were edited or reloaded.
+/// Follows meshes and volumes that were edited or reloaded. A volume that was taken away stays on screen until another is put in
+/// its place.
 pub(crate) fn follow_assets(
     mut edited_meshes: MessageReader<AssetEvent<Mesh>>,
     mut edited_volumes: MessageReader<AssetEvent<TexelVolume>>,
@@ -202,8 +203,11 @@ pub(crate) fn follow_assets(
 ) {
     library.settle();
     for event in edited_volumes.read() {
-        if let AssetEvent::Modified { id } = event {
-            library.forget_volume(*id);
+        match event {
+            AssetEvent::Modified { id } => library.forget_volume(*id),
+            AssetEvent::Removed { id } => library.lose_volume(*id),
+            AssetEvent::Added { id } => library.regain_volume(*id),
+            _ => {}
         }
     }
     let mut seen = HashSet::<AssetId<Mesh>>::default();

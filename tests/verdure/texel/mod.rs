@@ -1,12 +1,15 @@
 //! Texels as they are drawn.
 
 mod agreement;
+mod edits;
+mod fog;
 mod lighting;
 mod models;
 mod passes;
 mod selection;
 mod skinned;
 mod steady;
+mod through;
 mod turns;
 mod twins;
 mod uploads;

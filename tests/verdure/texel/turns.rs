@@ -12,7 +12,7 @@ use super::{BACKGROUND, LOLLY, cover_default, is_background, shot, unlit};
 const EYE: Vec3 = Vec3::new(1.9, 2.3, 1.2);
 
 /// A small red ball.
-fn ball() -> TexelVolume {
+pub fn ball() -> TexelVolume {
     let solid = |at: Vec3| (0.7 - at.distance(Vec3::splat(0.5)), Vec3::X);
     let settings = VolumeSettings::new(UVec3::splat(16));
     let built = from_hypertexture(solid, &settings, &silent);
