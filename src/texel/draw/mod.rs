@@ -16,7 +16,8 @@
 //!    They cast shadows (`shaders/prepass.wgsl`).
 //!
 //! Facets of skinned meshes follow their joints on the CPU, once these are where they are in a frame (`skin.rs`). Of facets that
-//! moved those that changed are written to the GPU (`upload.rs`).
+//! moved those that changed are written to the GPU (`upload.rs`). Brushes stroke surfaces by their height vectors (`brush.rs`,
+//! `combed.rs`).
 //!
 //! # What does not pop
 //! Where twice as many slices will soon be needed, they fade in, and so does the second best direction where it is nearly as
@@ -41,6 +42,8 @@
 //! than there are, or height vectors differ much over it, gaps may show: subdivide the mesh. Storage buffers in the vertex stage
 //! are required, so WebGL 2 is out.
 
+mod brush;
+mod combed;
 mod commands;
 mod component;
 mod geometry;
@@ -68,6 +71,7 @@ use bevy::render::storage::ShaderBuffer;
 use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
 use bevy::shader::load_shader_library;
 
+pub use brush::{StrokedTexels, TexelBrush};
 pub use component::{
     ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface,
 };
@@ -104,6 +108,8 @@ impl Plugin for TexelPlugin {
             .register_type::<TexelHeights>()
             .register_type::<LiveTexels>()
             .register_type::<TexelCycle>()
+            .register_type::<TexelBrush>()
+            .register_type::<StrokedTexels>()
             .register_type::<TexelSlices>()
             .init_resource::<library::TexelLibrary>()
             .add_observer(systems::uproot)
@@ -113,6 +119,7 @@ impl Plugin for TexelPlugin {
                     systems::forget,
                     systems::cycle,
                     systems::follow_assets,
+                    combed::stroke,
                     systems::attach,
                     systems::follow_lights,
                     systems::follow_surfaces,

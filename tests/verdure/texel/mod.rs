@@ -7,6 +7,7 @@ mod passes;
 mod selection;
 mod skinned;
 mod steady;
+mod stroke;
 mod turns;
 mod twins;
 mod uploads;
