@@ -55,8 +55,8 @@ pub mod prelude {
         DiscrepancyAngle, Orientations, SliceOrder, SlicedCrown, Slicing, SlicingCompression, bake,
     };
     pub use crate::texel::{
-        ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, TexelCycle, TexelHeights, TexelQuality, TexelSettings,
-        TexelSurface, TexelVolume,
+        ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, StrokedTexels, TexelBrush, TexelCycle, TexelHeights,
+        TexelQuality, TexelSettings, TexelSurface, TexelVolume,
     };
     pub use crate::wind::Wind;
     pub use crate::{VerdurePlugin, VerdureSystems};

@@ -1,7 +1,10 @@
-//! Surfaces covered with volumes: the paper's scenes (§6), and a meadow.
+//! Surfaces covered with volumes: the paper's scenes (§6), and those that move, by their mesh, their height vectors or volumes by
+//! turns.
 //!
 //! ```text
 //! cargo run --example texels -- meadow
+//! cargo run --example texels -- stroke
+//! cargo run --example texels -- reeds
 //! cargo run --example texels -- pear --headless --size 512x384 --frames 1 --out out
 //! ```
 
@@ -13,7 +16,9 @@ use bevy::light::NotShadowCaster;
 use bevy::mesh::skinning::SkinnedMeshInverseBindposes;
 use bevy::prelude::*;
 use bevy_verdure::lab::CommonArgs;
-use bevy_verdure::lab::texel_scenes::{TexelScene, bend_knees, joints, surfaces};
+use bevy_verdure::lab::texel_scenes::{
+    CYCLE_RATE, RECOVERY, TexelScene, bend_knees, bring_hand, joints, move_hands, surfaces,
+};
 use bevy_verdure::prelude::*;
 use clap::Parser;
 
@@ -89,7 +94,7 @@ fn run(args: &Args) -> Result<(), String> {
         diffuse_transmission: args.transmission.unwrap_or(own.diffuse_transmission),
         ..own
     };
-    let volume = scene.volume()?;
+    let built = scene.volumes()?;
     let (eye, at) = scene.view();
     let stage = Stage {
         eye: args.eye.unwrap_or(eye),
@@ -105,7 +110,7 @@ fn run(args: &Args) -> Result<(), String> {
     common::run(&title, &args.common, move |app| {
         app.add_plugins(stage)
             .insert_resource(wind)
-            .add_systems(Update, (wave, bend_knees))
+            .add_systems(Update, (wave, bend_knees, move_hands))
             .insert_resource(common::Orbit {
                 centre: stage.centre,
                 speed: turns,
@@ -117,14 +122,15 @@ fn run(args: &Args) -> Result<(), String> {
                       mut volumes: ResMut<Assets<TexelVolume>>,
                       mut bindposes: ResMut<Assets<SkinnedMeshInverseBindposes>>,
                       mut materials: ResMut<Assets<StandardMaterial>>| {
-                    let volume = volumes.add(volume.clone());
+                    let built = built.iter().cloned();
+                    let handles: Vec<_> = built.map(|volume| volumes.add(volume)).collect();
                     for surface in scene.surfaces() {
                         let skin = (scene == TexelScene::Limb)
                             .then(|| joints(&mut commands, &mut bindposes));
                         let mut entity = commands.spawn((
                             Mesh3d(meshes.add(surface.mesh)),
                             TexelSurface {
-                                volume: volume.clone(),
+                                volume: handles[0].clone(),
                                 thickness: surface.thickness,
                             },
                             settings,
@@ -132,6 +138,12 @@ fn run(args: &Args) -> Result<(), String> {
                         ));
                         if let Some(skin) = skin {
                             entity.insert(skin);
+                        }
+                        if handles.len() > 1 {
+                            entity.insert(TexelCycle {
+                                volumes: handles.clone(),
+                                rate: CYCLE_RATE,
+                            });
                         }
                         if unshadowed {
                             entity.insert(NotShadowCaster);
@@ -155,6 +167,9 @@ fn run(args: &Args) -> Result<(), String> {
                                 MeshMaterial3d(materials.add(Color::srgb(0.55, 0.42, 0.28))),
                                 Transform::from_translation(at.with_y(1.0)),
                             ));
+                        } else if scene == TexelScene::Stroke {
+                            entity.insert(StrokedTexels { recovery: RECOVERY });
+                            bring_hand(&mut commands, &mut meshes, &mut materials);
                         }
                     }
                 },

@@ -64,8 +64,9 @@ pub use choose::{
     choose_fading,
 };
 pub use draw::{
-    ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, MAX_SLICES, TexelCycle, TexelHeights, TexelMaterial,
-    TexelPlugin, TexelSettings, TexelSlices, TexelStats, TexelSurface, TexelSurfaceError,
+    ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, MAX_SLICES, StrokedTexels, TexelBrush, TexelCycle,
+    TexelHeights, TexelMaterial, TexelPlugin, TexelSettings, TexelSlices, TexelStats, TexelSurface,
+    TexelSurfaceError,
 };
 pub use error::TexelError;
 pub use from_mesh::ShapeMeshError;

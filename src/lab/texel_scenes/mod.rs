@@ -4,12 +4,14 @@
 //! |---|---|
 //! | `patterns` | which volumes are there, of what shapes? |
 //! | [`surfaces`], `limb` | what do they cover? |
+//! | `hand` | what strokes them? |
 //! | `stand` | how does a scene look with some settings? |
 //! | `full` | which triangles do texels stand for? |
 //! | `counts` | how many slices is it drawn by? |
 
 mod counts;
 mod full;
+mod hand;
 mod limb;
 mod patterns;
 mod stand;
@@ -23,6 +25,7 @@ use crate::texel::{TexelSettings, TexelVolume, silent};
 
 pub use counts::{SliceCounts, texel_bytes, texel_view};
 pub use full::{full_mesh, instances};
+pub use hand::{Hand, RECOVERY, bring_hand, move_hands};
 pub use limb::{Knee, bend_knees, joints};
 pub use patterns::Pattern;
 pub use stand::{FullMeshes, TexelStand, all_slices};
@@ -48,9 +51,16 @@ pub enum TexelScene {
     Fur,
     /// A limb of fur on two joints.
     Limb,
+    /// An animal's back, and a hand that strokes its fur.
+    Stroke,
+    /// Reeds that sway: eight volumes by turns, as in a cartoon (§5).
+    Reeds,
     /// A hill of grass in the wind.
     Meadow,
 }
+
+/// Volumes a second of scenes that show several: a sway of reeds in a second and a third.
+pub const CYCLE_RATE: f32 = 6.0;
 
 /// A surface to be covered.
 pub struct Covered {
@@ -77,16 +87,26 @@ impl TexelScene {
             Self::Pear | Self::Pears => Pattern::Pear,
             Self::Bushes => Pattern::Bush,
             Self::Noise | Self::Sphere | Self::Plane => Pattern::Noise,
-            Self::Flag | Self::Fur | Self::Limb => Pattern::Fur,
+            Self::Flag | Self::Fur | Self::Limb | Self::Stroke => Pattern::Fur,
+            Self::Reeds => Pattern::Reeds { moment: 0 },
             Self::Meadow => Pattern::Grass,
         }
     }
 
-    /// Its volume.
+    /// Its volume; the first, if there are several.
     pub fn volume(self) -> Result<TexelVolume, String> {
-        let pattern = self.pattern();
-        let built = pattern.build(pattern.size(), Spreading::default(), &silent);
-        Ok(built.map_err(|error| error.to_string())?.volume.into())
+        build(self.pattern())
+    }
+
+    /// Its volumes, one, or several that are shown by turns.
+    pub fn volumes(self) -> Result<Vec<TexelVolume>, String> {
+        if self == Self::Reeds {
+            let moments = 0..patterns::REED_MOMENTS;
+            return moments
+                .map(|moment| build(Pattern::Reeds { moment }))
+                .collect();
+        }
+        Ok(vec![self.volume()?])
     }
 
     /// Where it is seen from: the eye, and what it looks at.
@@ -99,6 +119,8 @@ impl TexelScene {
             Self::Bushes => (Vec3::new(0.0, 2.2, 5.6), Vec3::Y * 0.2),
             Self::Noise => (Vec3::new(0.0, 1.7, 3.9), Vec3::Y * 0.1),
             Self::Plane => (Vec3::new(0.0, 2.4, 6.5), Vec3::ZERO),
+            Self::Stroke => (Vec3::new(0.0, 2.0, 3.2), Vec3::new(0.0, 0.4, 0.0)),
+            Self::Reeds => (Vec3::new(0.0, 1.6, 6.0), Vec3::new(0.0, 0.5, 0.0)),
             Self::Meadow => (Vec3::new(0.0, 1.8, 7.0), Vec3::new(0.0, 0.9, 0.0)),
         }
     }
@@ -109,7 +131,7 @@ impl TexelScene {
         match self {
             // They overlap, and meet in steps as high as slices are apart.
             Self::Pear => settings.quality.least_angle = 1.1,
-            Self::Bushes => settings.diffuse_transmission = 0.5,
+            Self::Bushes | Self::Reeds => settings.diffuse_transmission = 0.5,
             Self::Fur => settings.flexibility = 0.03,
             Self::Meadow => {
                 settings.flexibility = 0.03;
@@ -203,10 +225,28 @@ impl TexelScene {
                 color: Some(Color::srgb(0.10, 0.06, 0.03)),
                 ..covered(limb::limb(), 0.07, Transform::IDENTITY)
             }],
+            Self::Stroke => vec![Covered {
+                color: Some(Color::srgb(0.10, 0.06, 0.03)),
+                ..covered(surfaces::back(), 0.14, Transform::IDENTITY)
+            }],
+            Self::Reeds => vec![Covered {
+                // Water.
+                color: Some(Color::srgb(0.10, 0.17, 0.18)),
+                ..covered(
+                    surfaces::grid(8, 5, Vec2::new(8.0, 5.0)),
+                    0.9,
+                    Transform::from_xyz(0.0, 0.01, 0.0),
+                )
+            }],
             Self::Meadow => vec![Covered {
                 color: Some(Color::srgb(0.13, 0.19, 0.05)),
                 ..covered(surfaces::hill(12, 12.0), 0.35, Transform::IDENTITY)
             }],
         }
     }
+}
+
+fn build(pattern: Pattern) -> Result<TexelVolume, String> {
+    let built = pattern.build(pattern.size(), Spreading::default(), &silent);
+    Ok(built.map_err(|error| error.to_string())?.volume.into())
 }

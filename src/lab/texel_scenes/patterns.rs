@@ -9,7 +9,7 @@ use crate::texel::build::{
 };
 use crate::texel::color::srgb_to_linear;
 use crate::texel::{Progress, TexelError, Topology};
-use bevy::math::{UVec2, UVec3, Vec2, Vec3};
+use bevy::math::{IVec2, UVec2, UVec3, Vec2, Vec3};
 use clap::Subcommand;
 
 /// One of them; a command of `bake_texel` each.
@@ -25,7 +25,16 @@ pub enum Pattern {
     Noise,
     /// Strands of fur that tile: a hypertexture.
     Fur,
+    /// Reeds and bulrushes that tile, at one of 8 moments of their sway: a hypertexture.
+    Reeds {
+        /// Which moment; after the last the first comes again.
+        #[arg(long, default_value_t = 0)]
+        moment: u32,
+    },
 }
+
+/// Moments of a sway of [`Pattern::Reeds`].
+pub(super) const REED_MOMENTS: u32 = 8;
 
 impl Pattern {
     /// The size that it is baked at.
@@ -35,6 +44,8 @@ impl Pattern {
             Self::Bush | Self::Noise => UVec3::new(256, 256, 64),
             Self::Grass => UVec3::new(256, 256, 64),
             Self::Fur => UVec3::new(128, 128, 32),
+            // There are eight of them on the GPU.
+            Self::Reeds { .. } => UVec3::new(64, 64, 32),
         }
     }
 
@@ -75,6 +86,9 @@ impl Pattern {
                 progress,
             ),
             Self::Fur => from_hypertexture(fur(), &field(Vec3::new(0.1, 0.1, 0.03)), progress),
+            Self::Reeds { moment } => {
+                from_hypertexture(reeds(moment), &field(Vec3::new(1.0, 1.0, 0.9)), progress)
+            }
         }
     }
 }
@@ -85,7 +99,8 @@ impl Pattern {
         matches!(self, Self::Bush | Self::Grass)
     }
 
-    /// The triangles that it is built of, and the box that is sliced, if it is not the shape's own. Fur has none.
+    /// The triangles that it is built of, and the box that is sliced, if it is not the shape's own. Hypertextures have
+    /// none.
     pub(super) fn shape(self, size: UVec3) -> Option<(Shape, Option<[Vec3; 2]>)> {
         match self {
             Self::Pear => Some((pear(), None)),
@@ -95,7 +110,7 @@ impl Pattern {
                 let field = triangulated(&noise(size.truncate()));
                 Some((field, Some([Vec3::ZERO, Vec3::ONE])))
             }
-            Self::Fur => None,
+            Self::Fur | Self::Reeds { .. } => None,
         }
     }
 }
@@ -338,7 +353,7 @@ fn fur() -> impl Fn(Vec3) -> (f32, Vec3) + Sync {
         let place = at.truncate() * CELLS as f32 - bend;
         let square = place.floor().as_ivec2();
         let mut best = (0.0f32, Vec3::ZERO);
-        for near in (0..9).map(|i| bevy::math::IVec2::new(i % 3 - 1, i / 3 - 1)) {
+        for near in (0..9).map(|i| IVec2::new(i % 3 - 1, i / 3 - 1)) {
             let cell = square + near;
             let index = cell.y.rem_euclid(CELLS) * CELLS + cell.x.rem_euclid(CELLS);
             let [x, y, length, sway, shade] = strands[index as usize];
@@ -355,5 +370,69 @@ fn fur() -> impl Fn(Vec3) -> (f32, Vec3) + Sync {
             best = (1.0, Vec3::new(0.18, 0.11, 0.055));
         }
         best
+    }
+}
+
+/// A reed, or a bulrush with its brown head.
+struct Reed {
+    /// Where on its lattice cell it stands.
+    root: Vec2,
+    /// Its height, as a share of all.
+    height: f32,
+    is_bulrush: bool,
+    shade: f32,
+}
+
+/// Reeds on a jittered lattice, in waves of wind of which one is as long as a texel.
+fn reeds(moment: u32) -> impl Fn(Vec3) -> (f32, Vec3) + Sync {
+    const CELLS: i32 = 6;
+    let turn = (moment % REED_MOMENTS) as f32 / REED_MOMENTS as f32;
+    let mut dice = Dice::new(13);
+    let reeds: Vec<Reed> = (0..CELLS * CELLS)
+        .map(|_| Reed {
+            root: Vec2::new(dice.roll(), dice.roll()),
+            height: dice.between(0.6, 0.98),
+            is_bulrush: dice.roll() < 0.35,
+            shade: dice.between(0.7, 1.1),
+        })
+        .collect();
+    move |at: Vec3| {
+        let place = at.truncate() * CELLS as f32;
+        let square = place.floor().as_ivec2();
+        let mut best = (0.0f32, Vec3::ZERO);
+        // As far as the tallest leans.
+        for near in (0..25).map(|i| IVec2::new(i % 5 - 2, i / 5 - 2)) {
+            let cell = square + near;
+            let index = cell.y.rem_euclid(CELLS) * CELLS + cell.x.rem_euclid(CELLS);
+            let reed = &reeds[index as usize];
+            let root = cell.as_vec2() + reed.root;
+            let (sin, cos) = (TAU * (turn - root.x / CELLS as f32)).sin_cos();
+            let lean = Vec2::new(0.3 + sin, 0.3 * cos) * at.z * at.z;
+            let (radius, color) = reed.at(at.z);
+            let density = 0.5 + (radius - place.distance(root + lean)) * 2.0;
+            if density > best.0 {
+                best = (density, color * reed.shade);
+            }
+        }
+        best
+    }
+}
+
+impl Reed {
+    /// Its radius at a height, in lattice cells, and its colour there.
+    fn at(&self, height: f32) -> (f32, Vec3) {
+        let share = height / self.height;
+        let green = Vec3::new(0.12, 0.26, 0.04) * (0.3 + 0.7 * height);
+        let left = (1.0 - share).max(0.0);
+        if !self.is_bulrush {
+            return (0.19 * left.sqrt(), green);
+        }
+        // Round at both ends.
+        let head = 1.0 - ((share - 0.8) / 0.14).powi(4);
+        if head > 0.0 {
+            (0.26 * head.sqrt(), Vec3::new(0.17, 0.07, 0.025))
+        } else {
+            (if share < 1.0 { 0.11 } else { 0.0 }, green)
+        }
     }
 }

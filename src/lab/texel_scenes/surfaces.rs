@@ -137,6 +137,27 @@ pub fn flag(time: f32) -> Mesh {
     smaller(mesh, SHARE)
 }
 
+/// Where the back of an animal is: so far along it, in metres, and turned so far from its top to the front.
+pub(super) fn on_back(along: f32, turn: f32) -> Vec3 {
+    let radius = 0.7 * (1.0 - (along / 1.35).powi(4)).max(0.0).sqrt();
+    Vec3::new(along, radius * turn.cos(), radius * turn.sin())
+}
+
+/// The back of an animal that lies on the ground: 6 by 5 texels of 32 triangles each.
+pub fn back() -> Mesh {
+    const SHARE: u32 = 4;
+    const COLUMNS: u32 = 6 * SHARE;
+    const ROWS: u32 = 5 * SHARE;
+    let mesh = lattice(COLUMNS, ROWS, |column, row| {
+        let x = (column as f32 / COLUMNS as f32 - 0.5) * 2.68;
+        let turn = (0.5 - row as f32 / ROWS as f32) * PI;
+        let along = on_back(x + 0.01, turn) - on_back(x - 0.01, turn);
+        let over = on_back(x, turn - 0.01) - on_back(x, turn + 0.01);
+        (on_back(x, turn), along.cross(over).normalize())
+    });
+    smaller(mesh, SHARE)
+}
+
 /// A mesh of which so many squares in a row share a texel.
 fn smaller(mut mesh: Mesh, squares: u32) -> Mesh {
     if let Some(VertexAttributeValues::Float32x2(uvs)) = mesh.attribute_mut(Mesh::ATTRIBUTE_UV_0) {

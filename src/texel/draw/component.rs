@@ -75,7 +75,8 @@ impl TexelSurface {
 }
 
 /// Height vectors of one [`TexelSurface`], one for each vertex of its mesh, in the mesh's space: they take the place of
-/// those of the mesh. Change them to move the texels, as a hand does that strokes fur; they are uploaded in the same frame.
+/// those of the mesh. Change them to move the texels, as a [`TexelBrush`](super::TexelBrush) does; they are uploaded in the same
+/// frame, if that is before [`VerdureSystems::Attach`](crate::VerdureSystems::Attach).
 ///
 /// If there are none, they follow the normals, [`thickness`](TexelSurface::thickness) long, whatever the mesh has; with any
 /// other number than that of its vertices the surface carries no texels, or those of a skin stay as they were, with an error.

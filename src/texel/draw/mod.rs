@@ -16,7 +16,8 @@
 //!    They cast shadows (`shaders/prepass.wgsl`).
 //!
 //! Facets of skinned meshes follow their joints on the CPU, once these are where they are in a frame (`skin.rs`). Of facets that
-//! moved those that changed are written to the GPU (`upload.rs`).
+//! moved those that changed are written to the GPU (`upload.rs`). Brushes stroke surfaces by their height vectors (`brush.rs`,
+//! `combed.rs`).
 //!
 //! # What does not pop
 //! Where twice as many slices will soon be needed, they fade in, and so does the second best direction where it is nearly as
@@ -43,6 +44,8 @@
 
 #[cfg(test)]
 mod allocations;
+mod brush;
+mod combed;
 mod commands;
 mod component;
 mod geometry;
@@ -70,6 +73,7 @@ use bevy::render::storage::ShaderBuffer;
 use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
 use bevy::shader::load_shader_library;
 
+pub use brush::{StrokedTexels, TexelBrush};
 pub use component::{
     ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, TexelCycle, TexelHeights, TexelSettings, TexelSurface,
 };
@@ -106,6 +110,8 @@ impl Plugin for TexelPlugin {
             .register_type::<TexelHeights>()
             .register_type::<LiveTexels>()
             .register_type::<TexelCycle>()
+            .register_type::<TexelBrush>()
+            .register_type::<StrokedTexels>()
             .register_type::<TexelSlices>()
             .init_resource::<library::TexelLibrary>()
             .add_observer(systems::uproot)
@@ -115,6 +121,7 @@ impl Plugin for TexelPlugin {
                     systems::forget,
                     systems::cycle,
                     systems::follow_assets,
+                    combed::stroke,
                     systems::attach,
                     systems::follow_lights,
                     systems::follow_surfaces,

@@ -5,10 +5,11 @@
 //! Σ bᵢ·(Aᵢ + w·Hᵢ). Texture coordinates are Σ bᵢ·(uᵢ, vᵢ), and repeat with 1, so that a facet may carry a part of a
 //! texel or many.
 //!
-//! `bend` has height vectors in the wind; `frame` has the directions in which u, v and w grow there; `slicing` cuts the
-//! prism into slices; `surface` makes facets of a mesh.
+//! `bend` has height vectors in the wind, and `comb` those that are stroked; `frame` has the directions in which u, v and w grow
+//! there; `slicing` cuts the prism into slices; `surface` makes facets of a mesh.
 
 mod bend;
+mod comb;
 mod frame;
 mod slicing;
 mod surface;
@@ -19,6 +20,7 @@ use bevy::math::{Vec2, Vec3};
 use thiserror::Error;
 
 pub use bend::bend;
+pub use comb::comb;
 pub use frame::TexelFrame;
 pub use slicing::{slice_line, slice_position, slice_range};
 pub use surface::{Surface, SurfaceError, SurfaceFacets};

@@ -9,6 +9,7 @@ mod passes;
 mod selection;
 mod skinned;
 mod steady;
+mod stroke;
 mod through;
 mod turns;
 mod twins;
