@@ -271,14 +271,26 @@ pub(crate) fn attach(
 /// compression.
 pub(crate) fn follow_slicings(
     mut events: MessageReader<AssetEvent<Slicing>>,
+    mut gone: Local<HashSet<AssetId<Slicing>>>,
     mut library: ResMut<CrownLibrary>,
     mut assets: CrownAssets,
     slicings: Res<Assets<Slicing>>,
 ) {
+    gone.retain(|id| library.shared.contains_key(id));
     let mut edited: HashSet<AssetId<Slicing>> = HashSet::default();
     for event in events.read() {
-        if let AssetEvent::Modified { id } = event {
-            edited.insert(*id);
+        match event {
+            AssetEvent::Modified { id } => {
+                edited.insert(*id);
+            }
+            AssetEvent::Removed { id } if library.shared.contains_key(id) => {
+                gone.insert(*id);
+            }
+            // One that has come for the first time is drawn by `attach`.
+            AssetEvent::Added { id } if gone.remove(id) => {
+                edited.insert(*id);
+            }
+            _ => {}
         }
     }
     if assets.are_outdated() {

@@ -47,7 +47,7 @@ impl AssetLoader for SlicingLoader {
             for (relative, picture) in names.into_iter().zip([&mut color, &mut normal]) {
                 let picture_path: AssetPath = path
                     .resolve_embed_str(relative)
-                    .map_err(|error| failed(relative, error.to_string()))?;
+                    .map_err(|error| failed(&name, format!("`{relative}`: {error}")))?;
                 let named = picture_path.to_string();
                 let bytes = load_context
                     .read_asset_bytes(picture_path)

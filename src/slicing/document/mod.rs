@@ -3,9 +3,12 @@
 //! The text names, for each orientation, a picture of colours and one of normals: PNGs of 8 bits with alpha, the slices
 //! of all levels of detail one under the other, the finest level first, and in a level the furthest slice first.
 
+use std::path::Path;
+
 use bevy::asset::RenderAssetUsages;
 use bevy::image::{CompressedImageFormats, Image, ImageSampler, ImageType};
 use bevy::math::Vec3;
+use bevy::render::render_resource::TextureFormat;
 use ron::ser::PrettyConfig;
 use serde::{Deserialize, Serialize};
 
@@ -94,6 +97,18 @@ impl SlicingDocument {
             .shape()
             .check()
             .map_err(|error| SlicingFileError::new(path, error))?;
+        // Such a picture would be the folder, or nothing that an error could name.
+        let is_nameless = |name: &str| Path::new(name).file_name().is_none();
+        let nameless = document
+            .pictures()
+            .position(|names| names.into_iter().any(is_nameless));
+        if let Some(index) = nameless {
+            let message = format!("a picture of orientation {index} has no name");
+            return Err(SlicingFileError::new(
+                path,
+                SlicingFileErrorKind::Ron { message },
+            ));
+        }
         Ok(document)
     }
 
@@ -255,8 +270,10 @@ pub fn read_picture(path: &str, bytes: &[u8], size: [u32; 2]) -> Result<Picture,
     );
     let message = match image {
         Ok(image) => {
+            // Two channels of 16 bits take four bytes a pixel, too.
+            let is_color = image.texture_descriptor.format == TextureFormat::Rgba8UnormSrgb;
             let data = image.data.unwrap_or_default();
-            if data.len() as u64 == u64::from(width) * u64::from(height) * 4 {
+            if is_color && data.len() as u64 == u64::from(width) * u64::from(height) * 4 {
                 let pixels = data.chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]);
                 return Ok(pixels.collect());
             }

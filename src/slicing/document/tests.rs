@@ -48,6 +48,16 @@ fn files_that_ask_for_nonsense_are_refused_by_name() {
         ("sphere: false", "sphere: maybe", "elm.slicing.ron, line"),
         ("sphere: false", "round: false", "round"),
         ("direction: (1.0", "direction: (7.0", "orientation 0"),
+        (
+            "elm.1.normal.png",
+            "..",
+            "a picture of orientation 1 has no name",
+        ),
+        (
+            "elm.0.color.png",
+            "",
+            "a picture of orientation 0 has no name",
+        ),
     ];
     for (old, new, what) in cases {
         assert!(text.contains(old), "{old} in {text}");
@@ -65,8 +75,8 @@ fn files_that_ask_for_nonsense_are_refused_by_name() {
 }
 
 #[test]
-fn pictures_of_another_size_are_refused_before_they_are_unpacked() {
-    // The header of a picture of 65,535 × 65,535, and nothing after it.
+fn pictures_of_another_size_or_kind_are_refused() {
+    // The header of a picture of 65,535 × 65,535, and nothing after it: no pixels are unpacked to tell its size.
     let mut bomb = b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR".to_vec();
     bomb.extend([0, 0, 255, 255, 0, 0, 255, 255]);
     let message = read_picture("elm.0.color.png", &bomb, [16, 48])
@@ -80,6 +90,15 @@ fn pictures_of_another_size_are_refused_before_they_are_unpacked() {
         .unwrap_err()
         .to_string();
     assert!(message.contains("does not begin as a PNG"), "{message}");
+    // Two channels of 16 bits take as many bytes as four of 8.
+    let mut gray = std::io::Cursor::new(Vec::new());
+    image::DynamicImage::new_luma_a16(16, 48)
+        .write_to(&mut gray, image::ImageFormat::Png)
+        .unwrap();
+    let message = read_picture("elm.0.color.png", gray.get_ref(), [16, 48])
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("not of 8 bits"), "{message}");
     let slicing = tiny();
     let document = SlicingDocument::describe(&slicing, "elm");
     let error = document

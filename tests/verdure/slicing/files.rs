@@ -1,5 +1,7 @@
 //! Slicings from files, right and wrong.
 
+use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -8,6 +10,7 @@ use bevy::prelude::*;
 use bevy_verdure::lab::save_slicing;
 use bevy_verdure::prelude::*;
 use bevy_verdure::slicing::SlicingLoader;
+use image::{DynamicImage, ImageFormat};
 
 use super::CROWN;
 
@@ -18,6 +21,28 @@ pub fn folder(name: &str) -> PathBuf {
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).expect("a folder for the test");
     folder
+}
+
+/// The files that a slicing is saved in, by their names, which begin with a stem.
+pub fn saved(slicing: &Slicing, stem: &str) -> BTreeMap<String, Vec<u8>> {
+    let folder = folder(&format!("{stem}_{}", std::process::id()));
+    let report = save_slicing(slicing, &folder, stem).expect("the folder can be written to");
+    let files = report.files.iter().map(|path| {
+        let name = path.file_name().expect("a file has a name");
+        let bytes = std::fs::read(path).expect("what was written can be read");
+        (name.to_string_lossy().into_owned(), bytes)
+    });
+    let files = files.collect();
+    std::fs::remove_dir_all(&folder).expect("the folder can be removed");
+    files
+}
+
+/// The bytes of a picture's file.
+pub fn png(picture: &DynamicImage) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    let written = picture.write_to(&mut bytes, ImageFormat::Png);
+    written.expect("a picture can be written to memory");
+    bytes.into_inner()
 }
 
 fn edit(path: &Path, old: &str, new: &str) {

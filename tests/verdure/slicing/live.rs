@@ -9,7 +9,7 @@ use bevy_verdure::wind::sway;
 
 use crate::recovery::{lose_device, recovering_studio};
 
-use super::{CROWN, SIZE, UNLIT, covered, eye, mean, plant, shot, studio};
+use super::{CROWN, SIZE, SMALL, UNLIT, bake_crown, covered, eye, mean, plant, shot, studio};
 
 #[test]
 fn tints_settings_and_wind_follow_the_components() {
@@ -186,6 +186,45 @@ fn an_edited_slicing_shows_and_a_crown_no_more_is_gone() {
         .resource::<Assets<SlicedCrownMaterial>>()
         .len();
     assert_eq!(left, 0, "what no crown uses is forgotten");
+}
+
+#[test]
+fn an_edited_slicing_is_drawn_as_a_fresh_one_whatever_its_shape_was() {
+    let round = BakeSettings::default().with_pixels(32).with_slices(7);
+    let round = bake_crown(&round.with_orientations(Orientations::Sphere(8)));
+    let versions: [&Slicing; 3] = [&CROWN, &SMALL, &round];
+    let (mut studio, crown) = studio(UNLIT);
+    // From afar, and so near that the discrepancy angle is taken part by part.
+    let looks = [16.0, 6.0].map(|distance| shot(eye(75.0, 10.0, distance)));
+    let pictures = |studio: &mut Studio| {
+        for _ in 0..2 {
+            studio.headless.step();
+        }
+        looks.map(|look| studio.photograph(&look, Color::BLACK).rgb_bytes())
+    };
+    // On one entity all along, so that nothing but the slicing differs.
+    let show = |studio: &mut Studio, version: &Slicing| {
+        let mut slicings = studio.world().resource_mut::<Assets<Slicing>>();
+        let slicing = slicings.add(version.clone());
+        let mut crown = studio.world().entity_mut(crown);
+        crown.insert(SlicedCrown(slicing.clone()));
+        slicing
+    };
+    let fresh = versions.map(|version| {
+        show(&mut studio, version);
+        pictures(&mut studio)
+    });
+    for pair in [[0, 1], [1, 2], [2, 0]] {
+        assert!(fresh[pair[0]] != fresh[pair[1]], "{pair:?}");
+    }
+    let edited = show(&mut studio, versions[0]);
+    assert!(pictures(&mut studio) == fresh[0]);
+    for next in [1, 2, 0] {
+        let mut slicings = studio.world().resource_mut::<Assets<Slicing>>();
+        let inserted = slicings.insert(&edited, versions[next].clone());
+        assert!(inserted.is_ok());
+        assert!(pictures(&mut studio) == fresh[next], "{next}");
+    }
 }
 
 #[test]

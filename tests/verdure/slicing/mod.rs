@@ -6,6 +6,7 @@ mod close_up;
 mod compression;
 mod draws;
 mod error;
+mod file_sets;
 mod files;
 mod intersecting;
 mod lighting;
@@ -14,6 +15,7 @@ mod models;
 mod near;
 mod parts;
 mod passes;
+mod reloads;
 mod sets;
 mod steady;
 mod twins;
@@ -44,6 +46,22 @@ static TREE: LazyLock<BroadleafMeshes> = LazyLock::new(|| {
 
 /// Its crown, baked with 64² pixels a slice.
 static CROWN: LazyLock<Slicing> = LazyLock::new(|| baked(0.5, 0.0));
+
+/// Another slicing of its crown: of fewer pixels, slices, levels of detail and orientations.
+static SMALL: LazyLock<Slicing> = LazyLock::new(|| {
+    bake_crown(&BakeSettings {
+        orientations: Orientations::Circle(3),
+        levels: vec![2, 1],
+        switches: vec![10.0],
+        ..BakeSettings::default().with_pixels(16)
+    })
+});
+
+/// Its crown, baked in a way of its own.
+fn bake_crown(settings: &BakeSettings) -> Slicing {
+    let crown = broadleaf_crown(&TREE, 0.0).expect("a broadleaf's meshes can be baked");
+    bake(&crown, settings).expect("the settings are in range")
+}
 
 /// Its crown with a correction m_s, and leaves through which such a share of light comes.
 fn baked(correction: f32, diffuse_transmission: f32) -> Slicing {
