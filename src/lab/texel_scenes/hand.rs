@@ -35,7 +35,7 @@ pub fn bring_hand(
         Hand,
         brush,
         Mesh3d(meshes.add(Capsule3d::new(0.08, 0.2))),
-        MeshMaterial3d(materials.add(Color::srgb(0.72, 0.48, 0.38))),
+        MeshMaterial3d(materials.add(Color::srgb(0.3, 0.42, 0.55))),
         place(0.0),
     ));
 }
