@@ -1,6 +1,7 @@
 //! Texels as they are drawn.
 
 mod agreement;
+mod groups;
 mod lighting;
 mod models;
 mod passes;
