@@ -10,12 +10,14 @@ use bevy::prelude::*;
 
 use super::super::build::{VolumeSettings, from_hypertexture};
 use super::super::choose::{TexelQuality, TexelView, VolumeMeasure, choose_fading};
-use super::super::facet::Facet;
+use super::super::facet::SurfaceFacets;
 use super::super::progress::silent;
 use super::super::slice_sets::{SliceBoxes, SliceSets};
 use super::super::volume::ReferenceVolume;
 use super::component::{TexelSettings, TexelSurface};
+use super::geometry::Geometry;
 use super::records::SliceRecord;
+use super::room::FacetSpace;
 use super::source::{DrawnVolume, SeenFrom, SliceSource};
 
 thread_local! {
@@ -80,14 +82,14 @@ fn volume() -> ReferenceVolume {
 }
 
 /// The facets of a sphere, which are seen from all sides.
-fn facets() -> Vec<Facet> {
+fn facets() -> SurfaceFacets {
     let mesh = Sphere::new(1.0).mesh().uv(24, 12);
     let surface = TexelSurface {
         thickness: 0.2,
         ..default()
     };
     let found = surface.facets(&mesh);
-    found.expect("a sphere carries texels").facets
+    found.expect("a sphere carries texels")
 }
 
 /// From an eye, and from a sun.
@@ -117,7 +119,7 @@ fn views() -> [SeenFrom; 2] {
 
 #[test]
 fn choosing_allocates_nothing() {
-    let (facets, measure) = (facets(), VolumeMeasure::of(&volume(), MOST));
+    let (facets, measure) = (facets().facets, VolumeMeasure::of(&volume(), MOST));
     let quality = TexelQuality::default();
     let mut axes = 0;
     let allocations = allocations(|| {
@@ -145,16 +147,18 @@ fn a_second_frame_lists_its_slices_without_allocating() {
         ..default()
     };
     let bounds = Aabb::from_min_max(Vec3::splat(-1.4), Vec3::splat(1.4));
-    let facets: Arc<[Facet]> = facets().into();
+    let geometry = Geometry::new(&facets(), &FacetSpace::default(), usize::MAX);
     let slices = [Entity::PLACEHOLDER; 6];
-    let source = SliceSource::new(&facets, bounds, drawn, settings, slices);
+    let material = AssetId::default();
+    let source = SliceSource::new(&geometry, bounds, drawn, settings, slices, material);
     let mut order = Vec::new();
     let mut lists: [Vec<SliceRecord>; 3] = default();
     // As the lists of a frame are made: what was listed is cleared, and not given back.
     let mut frame = || {
         let listed = views().map(|from| {
             lists.iter_mut().for_each(Vec::clear);
-            source.list(&Affine3A::IDENTITY, &from, &mut order, &mut lists);
+            let all = 0..source.facets.len();
+            source.list(&Affine3A::IDENTITY, &from, all, &mut order, &mut lists);
             lists.iter().map(Vec::len).sum::<usize>()
         });
         listed.iter().sum::<usize>()

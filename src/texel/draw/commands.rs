@@ -9,26 +9,27 @@ use bevy::material::RenderPhaseType;
 use bevy::material::labels::DrawFunctionLabel;
 use bevy::pbr::{
     MainPassAlphaMaskDrawFunction, MainPassOpaqueDrawFunction, PreparedMaterial,
-    PrepassAlphaMaskDrawFunction, SetMaterialBindGroup, SetMeshBindGroup, SetMeshViewBindGroup,
+    PrepassAlphaMaskDrawFunction, SetMaterialBindGroup, SetMeshViewBindGroup,
     SetMeshViewBindingArrayBindGroup, SetPrepassViewBindGroup, SetPrepassViewEmptyBindGroup,
     Shadow, ShadowsDrawFunction,
 };
 use bevy::prelude::*;
 use bevy::render::erased_render_asset::ErasedRenderAssets;
 use bevy::render::render_phase::{
-    DrawFunctions, PhaseItem, RenderCommand, RenderCommandResult, SetItemPipeline,
-    TrackedRenderPass,
+    DrawFunctions, RenderCommand, RenderCommandResult, SetItemPipeline, TrackedRenderPass,
 };
 
+use super::bindings::{TEXEL_GROUP, TexelBindGroups};
+use super::leader::TexelPhase;
 use super::lists::SliceLists;
 use super::material::TexelMaterial;
 use crate::draw_functions::{UnlessView, edit_prepared, replace_draw_functions};
 
-/// Draws the slices that a view has of a surface across an axis.
+/// Draws the slices that a view has across an axis of all surfaces of a group, for the first of them that comes.
 pub(crate) struct DrawSlices;
 
-impl<P: PhaseItem> RenderCommand<P> for DrawSlices {
-    type Param = SRes<SliceLists>;
+impl<P: TexelPhase> RenderCommand<P> for DrawSlices {
+    type Param = (SRes<SliceLists>, SRes<TexelBindGroups>);
     type ViewQuery = Entity;
     type ItemQuery = ();
 
@@ -36,16 +37,23 @@ impl<P: PhaseItem> RenderCommand<P> for DrawSlices {
         item: &P,
         view: ROQueryItem<'w, '_, Self::ViewQuery>,
         _: Option<()>,
-        lists: SystemParamItem<'w, '_, Self::Param>,
+        (lists, groups): SystemParamItem<'w, '_, Self::Param>,
         pass: &mut TrackedRenderPass<'w>,
     ) -> RenderCommandResult {
-        let found = lists.into_inner().get(view, item.main_entity());
-        let Some((records, surfaces, range, surface)) = found else {
+        let slices = item.main_entity();
+        let Some((records, run)) = lists.into_inner().run(view, slices) else {
             return RenderCommandResult::Skip;
         };
+        let Some(group) = groups.into_inner().get(run.pool) else {
+            return RenderCommandResult::Skip;
+        };
+        // Only what is drawn may lead: all that another one needs is there.
+        if !run.leaders.leads::<P>(slices.id()) {
+            return RenderCommandResult::Skip;
+        }
+        pass.set_bind_group(TEXEL_GROUP, group, &[]);
         pass.set_vertex_buffer(0, records.slice(..));
-        pass.set_vertex_buffer(1, surfaces.slice(surface..));
-        pass.draw(0..4, range);
+        pass.draw(0..4, run.records.clone());
         RenderCommandResult::Success
     }
 }
@@ -58,7 +66,6 @@ pub(crate) type DrawTexels = (
     SetItemPipeline,
     SetMeshViewBindGroup<0>,
     SetMeshViewBindingArrayBindGroup<1>,
-    SetMeshBindGroup<2>,
     SetMaterialBindGroup<3>,
     DrawSlices,
 );
@@ -68,7 +75,6 @@ pub(crate) type DrawTexelsBefore = (
     SetItemPipeline,
     SetPrepassViewBindGroup<0>,
     SetPrepassViewEmptyBindGroup<1>,
-    SetMeshBindGroup<2>,
     SetMaterialBindGroup<3>,
     DrawSlices,
 );

@@ -3,35 +3,34 @@
 use core::ops::Range;
 use std::sync::Arc;
 
-use bevy::asset::{Assets, Handle};
 use bevy::camera::primitives::Aabb;
 use bevy::log::{error, warn};
 use bevy::math::{UVec3, Vec3, Vec3A};
 use bevy::mesh::Mesh;
-use bevy::render::storage::ShaderBuffer;
 
 use super::super::axis::SliceAxis;
 use super::super::facet::{Facet, Surface, SurfaceFacets};
 use super::component::TexelHeights;
 use super::limit::{MAX_SLICES, most_on_facet};
-use super::records::{FacetRecord, facet_buffer};
+use super::records::FacetRecord;
+use super::room::{FacetRoom, FacetSpace};
 use super::surface_mesh::{TexelSurfaceError, surface};
 
 /// The facets of a mesh.
 pub(crate) struct Geometry {
     pub facets: Arc<[Facet]>,
-    /// The same on the GPU.
-    pub buffer: Handle<ShaderBuffer>,
+    /// Where they are on the GPU.
+    pub room: Arc<FacetRoom>,
     bounds: Aabb,
     /// Length of the longest height vector.
     tallest: f32,
     /// The most slices a texel that may be shown, of volumes that have so many; none if these are too many.
     limits: Vec<(UVec3, Option<UVec3>)>,
     pub records: Vec<FacetRecord>,
-    /// Records that the buffer has room for.
-    capacity: usize,
     /// Records that were changed in this frame.
     pub changed: Vec<Range<usize>>,
+    /// Whether it came to its room in this frame.
+    pub is_new: bool,
 }
 
 /// Records between two changed ones that are written along with them, rather than these apart.
@@ -47,7 +46,7 @@ pub(crate) fn facets(
     facets_within(&completed(mesh, thickness, heights)?, most)
 }
 
-/// The facets of a completed surface on a device that takes `most`. Those that are left out count: the buffer has room for
+/// The facets of a completed surface on a device that takes `most`. Those that are left out count: there is room for
 /// them, so that they may come back.
 pub(crate) fn facets_within(
     surface: &Surface,
@@ -78,31 +77,25 @@ pub(crate) fn completed(
 }
 
 impl Geometry {
-    /// Of the facets of a mesh.
-    pub(crate) fn new(found: &SurfaceFacets, buffers: &mut Assets<ShaderBuffer>) -> Self {
-        let records = records(found);
-        let capacity = found.facets.len() + found.left_out.len();
+    /// Of the facets of a mesh, with a room in buffers that hold `most` each.
+    pub(crate) fn new(found: &SurfaceFacets, space: &FacetSpace, most: usize) -> Self {
         Self {
             facets: found.facets.as_slice().into(),
-            buffer: buffers.add(facet_buffer(&records, capacity)),
+            room: space.room(found.facets.len() + found.left_out.len(), most),
             bounds: bounds(&found.facets),
             tallest: tallest(&found.facets),
             limits: Vec::new(),
-            records,
-            capacity,
+            records: records(found),
             changed: Vec::new(),
+            is_new: true,
         }
     }
 
-    /// Follows facets that may have changed. Materials must be made anew if this tells so.
-    pub(crate) fn renew(
-        &mut self,
-        found: &SurfaceFacets,
-        buffers: &mut Assets<ShaderBuffer>,
-    ) -> bool {
+    /// Follows facets that may have changed.
+    pub(crate) fn renew(&mut self, found: &SurfaceFacets, space: &FacetSpace, most: usize) {
         let before = core::mem::replace(&mut self.records, records(found));
         if self.records == before {
-            return false;
+            return;
         }
         self.bounds = bounds(&found.facets);
         self.tallest = tallest(&found.facets);
@@ -113,23 +106,18 @@ impl Geometry {
             // How many slices there may be depends on texture coordinates alone.
             self.limits.clear();
         }
-        if self.records.len() <= self.capacity
-            // What is written to the GPU apart is no change that Bevy should upload.
-            && let Some(buffer) = buffers.get_mut_untracked(&self.buffer)
-            && let Some(data) = &mut buffer.data
-        {
-            for range in changed(&before, &self.records) {
-                let bytes: &[u8] = bytemuck::cast_slice(&self.records[range.clone()]);
-                let start = range.start * size_of::<FacetRecord>();
-                data[start..start + bytes.len()].copy_from_slice(bytes);
-                self.changed.push(range);
-            }
-            return false;
+        if self.records.len() <= self.room.range.len() {
+            self.changed.extend(changed(&before, &self.records));
+        } else {
+            self.room = space.room(self.records.len(), most);
+            self.is_new = true;
         }
-        self.capacity = self.records.len();
+    }
+
+    /// Begins a frame in which nothing has changed yet.
+    pub(crate) fn settle(&mut self) {
         self.changed.clear();
-        self.buffer = buffers.add(facet_buffer(&self.records, self.capacity));
-        true
+        self.is_new = false;
     }
 
     /// The most slices a texel that may be shown of a volume that has so many. None, and a message once, if even the fewest
@@ -249,6 +237,37 @@ mod tests {
         assert_eq!(changed(&before, &after), [3..7, 12..13, 20..21]);
         let fewer = changed(&after, &before[..5]);
         assert_eq!(fewer.as_slice(), core::slice::from_ref(&(3..4)));
+    }
+
+    #[test]
+    fn facets_stay_in_their_room_as_long_as_it_holds_them() {
+        let found = |count: usize, height: f32| {
+            let facet = Facet {
+                positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
+                heights: [Vec3::Z * height; 3],
+                uvs: [Vec2::ZERO, Vec2::X, Vec2::Y],
+            };
+            SurfaceFacets {
+                facets: vec![facet; count],
+                normals: vec![[Vec3::Z; 3]; count],
+                triangles: (0..count as u32).collect(),
+                left_out: Vec::new(),
+            }
+        };
+        let space = FacetSpace::default();
+        let mut geometry = Geometry::new(&found(5, 1.0), &space, 100);
+        let beside = space.room(3, 100);
+        assert!(geometry.is_new);
+        geometry.settle();
+        geometry.renew(&found(5, 1.0), &space, 100);
+        assert!(!geometry.is_new && geometry.changed.is_empty());
+        geometry.renew(&found(4, 2.0), &space, 100);
+        assert_eq!((&geometry.room.range, geometry.is_new), (&(0..5), false));
+        assert_eq!(geometry.changed.as_slice(), core::slice::from_ref(&(0..4)));
+        geometry.settle();
+        geometry.renew(&found(6, 2.0), &space, 100);
+        assert_eq!((&geometry.room.range, geometry.is_new), (&(8..14), true));
+        assert_eq!(beside.range, 5..8);
     }
 
     #[test]

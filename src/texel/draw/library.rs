@@ -9,7 +9,6 @@ use bevy::mesh::PrimitiveTopology;
 use bevy::platform::collections::{HashMap, HashSet};
 use bevy::prelude::*;
 use bevy::render::renderer::RenderDevice;
-use bevy::render::storage::ShaderBuffer;
 
 use super::super::asset::TexelVolume;
 use super::super::axis::SliceAxis;
@@ -21,6 +20,7 @@ use super::geometry::{Geometry, completed, facets, facets_within};
 use super::images::slice_images;
 use super::limit::DeviceLimits;
 use super::material::{TexelMaterial, TexelsUniform};
+use super::room::FacetSpace;
 use super::skin::Skin;
 use super::source::DrawnVolume;
 use super::surface_mesh::TexelSurfaceError;
@@ -41,14 +41,20 @@ pub(crate) struct GeometryKey {
     own: Option<Entity>,
 }
 
-/// Surfaces that share materials: one mesh, one volume, the same looks.
+/// Surfaces that share materials: one volume, the same looks, whatever their meshes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct TexelKeys {
-    pub geometry: GeometryKey,
+struct MaterialKey {
     volume: VolumeKey,
     lighting: PlantLighting,
     /// Other settings that materials have.
     settings: [u32; 5],
+}
+
+/// What a surface shares with others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct TexelKeys {
+    pub geometry: GeometryKey,
+    material: MaterialKey,
 }
 
 impl TexelKeys {
@@ -64,18 +70,20 @@ impl TexelKeys {
                 thickness: surface.thickness.to_bits(),
                 own,
             },
-            volume: VolumeKey {
-                id: surface.volume.id(),
-                most: settings.most_slices,
+            material: MaterialKey {
+                volume: VolumeKey {
+                    id: surface.volume.id(),
+                    most: settings.most_slices,
+                },
+                lighting: settings.lighting,
+                settings: [
+                    settings.roughness.to_bits(),
+                    settings.reflectance.to_bits(),
+                    settings.flexibility.to_bits(),
+                    settings.inner_slices,
+                    limited_transmission(settings.diffuse_transmission).to_bits(),
+                ],
             },
-            lighting: settings.lighting,
-            settings: [
-                settings.roughness.to_bits(),
-                settings.reflectance.to_bits(),
-                settings.flexibility.to_bits(),
-                settings.inner_slices,
-                limited_transmission(settings.diffuse_transmission).to_bits(),
-            ],
         }
     }
 }
@@ -96,7 +104,11 @@ pub(crate) struct TexelLibrary {
     volumes: HashMap<VolumeKey, SharedVolume>,
     /// None for a mesh that carries no texels, which has been told.
     geometries: HashMap<GeometryKey, Option<Geometry>>,
-    materials: HashMap<TexelKeys, [Handle<TexelMaterial>; 6]>,
+    /// Where facets are on the GPU.
+    pub space: FacetSpace,
+    /// Counts frames.
+    pub frame: u64,
+    materials: HashMap<MaterialKey, [Handle<TexelMaterial>; 6]>,
     /// What Bevy's phases have in place of slices.
     quad: Option<Handle<Mesh>>,
     /// Whether surfaces may have to be drawn with other things than they are.
@@ -108,7 +120,6 @@ pub(crate) struct TexelLibrary {
 pub(crate) struct TexelAssets<'w> {
     pub meshes: ResMut<'w, Assets<Mesh>>,
     images: ResMut<'w, Assets<Image>>,
-    buffers: ResMut<'w, Assets<ShaderBuffer>>,
     materials: ResMut<'w, Assets<TexelMaterial>>,
     pub volumes: Res<'w, Assets<TexelVolume>>,
     server: Option<Res<'w, AssetServer>>,
@@ -160,7 +171,7 @@ pub(crate) enum Drawn<'a> {
 impl TexelKeys {
     /// The same for another volume.
     pub(crate) fn with_volume(mut self, id: AssetId<TexelVolume>) -> Self {
-        self.volume.id = id;
+        self.material.volume.id = id;
         self
     }
 }
@@ -196,7 +207,7 @@ impl TexelLibrary {
             None if !assets.meshes.contains(keys.geometry.mesh) => return Drawn::NotYet,
             _ => {}
         }
-        let Some(volume) = self.volume(keys.volume, assets) else {
+        let Some(volume) = self.volume(keys.material.volume, assets) else {
             return Drawn::NotYet;
         };
         let measure = volume.measure;
@@ -206,8 +217,9 @@ impl TexelLibrary {
             };
             let name = assets.mesh_name(keys.geometry.mesh, owner);
             let thickness = f32::from_bits(keys.geometry.thickness);
-            let found = told_facets(&name, mesh, thickness, heights, assets.limits().facets);
-            let geometry = found.map(|facets| Geometry::new(&facets, &mut assets.buffers));
+            let most = assets.limits().facets;
+            let found = told_facets(&name, mesh, thickness, heights, most);
+            let geometry = found.map(|facets| Geometry::new(&facets, &self.space, most));
             self.geometries.insert(keys.geometry, geometry);
         }
         let Some(Some(geometry)) = self.geometries.get_mut(&keys.geometry) else {
@@ -218,14 +230,13 @@ impl TexelLibrary {
         };
         let volumes = &self.volumes;
         let measure = VolumeMeasure { most, ..measure };
-        let materials = self.materials.entry(keys).or_insert_with(|| {
-            let images = &volumes[&keys.volume].images;
+        let materials = self.materials.entry(keys.material).or_insert_with(|| {
+            let images = &volumes[&keys.material.volume].images;
             let sets = [0, 1, 2, 3, 4, 5].map(|i| (SliceAxis::ALL[i % 3], i >= 3));
             sets.map(|(axis, depth)| {
                 let [color, normal] = images[axis.index()].clone();
                 assets.materials.add(TexelMaterial {
                     texels: TexelsUniform::new(&measure, settings, wind),
-                    facets: geometry.buffer.clone(),
                     color,
                     normal,
                     axis,
@@ -237,7 +248,7 @@ impl TexelLibrary {
         });
         let volume = DrawnVolume {
             measure,
-            boxes: volumes[&keys.volume].boxes.clone(),
+            boxes: volumes[&keys.material.volume].boxes.clone(),
         };
         Drawn::Slices(geometry, volume, materials.clone())
     }
@@ -267,7 +278,7 @@ impl TexelLibrary {
     /// Forgets what was made of volumes that were edited, so that it is made anew.
     pub(crate) fn forget_volume(&mut self, id: AssetId<TexelVolume>) {
         self.volumes.retain(|key, _| key.id != id);
-        self.materials.retain(|keys, _| keys.volume.id != id);
+        self.materials.retain(|key, _| key.volume.id != id);
         self.is_stale = true;
     }
 
@@ -308,8 +319,8 @@ impl TexelLibrary {
         lights: &SceneLights,
         materials: &mut Assets<TexelMaterial>,
     ) {
-        for (keys, handles) in &self.materials {
-            let lighting = lights.lighting(keys.lighting);
+        for (key, handles) in &self.materials {
+            let lighting = lights.lighting(key.lighting);
             // Depth has no light.
             for handle in &handles[..3] {
                 // Only what is written to counts as changed.
@@ -327,7 +338,7 @@ impl TexelLibrary {
         &mut self,
         id: AssetId<Mesh>,
         is_live: impl Fn(Entity) -> bool,
-        assets: &mut TexelAssets,
+        assets: &TexelAssets,
     ) {
         let of_mesh = |key: &&GeometryKey| key.mesh == id && !key.own.is_some_and(&is_live);
         let keys: Vec<GeometryKey> = self.geometries.keys().filter(of_mesh).copied().collect();
@@ -337,7 +348,6 @@ impl TexelLibrary {
             } else {
                 // Its surface makes it anew, with height vectors of its own.
                 self.geometries.remove(&key);
-                self.materials.retain(|keys, _| keys.geometry != key);
             }
             self.is_stale = true;
         }
@@ -348,7 +358,7 @@ impl TexelLibrary {
         &mut self,
         key: GeometryKey,
         heights: Option<&TexelHeights>,
-        assets: &mut TexelAssets,
+        assets: &TexelAssets,
     ) {
         let Some(geometry) = self.geometries.get_mut(&key) else {
             return;
@@ -357,21 +367,17 @@ impl TexelLibrary {
         let most = assets.limits().facets;
         let mesh = assets.meshes.get(key.mesh);
         let found = mesh.and_then(|mesh| facets(mesh, thickness, heights, most).ok());
-        let is_stale = match (geometry, found) {
+        match (geometry, found) {
             (Some(geometry), Some(found)) if !found.facets.is_empty() => {
-                geometry.renew(&found, &mut assets.buffers)
+                geometry.renew(&found, &self.space, most);
             }
             // What is still wrong was told when it went wrong.
-            (None, None) => return,
-            (None, Some(found)) if found.facets.is_empty() => return,
+            (None, None) => {}
+            (None, Some(found)) if found.facets.is_empty() => {}
             _ => {
                 // It is looked at anew, and told if it is wrong.
                 self.geometries.remove(&key);
-                true
             }
-        };
-        if is_stale {
-            self.materials.retain(|keys, _| keys.geometry != key);
         }
     }
 
@@ -385,7 +391,7 @@ impl TexelLibrary {
         key: GeometryKey,
         heights: Option<&TexelHeights>,
         matrices: &[Mat4],
-        assets: &mut TexelAssets,
+        assets: &TexelAssets,
     ) -> Result<Option<&Geometry>, TexelSurfaceError> {
         let (Some(Some(geometry)), Some(mesh)) =
             (self.geometries.get_mut(&key), assets.meshes.get(key.mesh))
@@ -394,27 +400,25 @@ impl TexelLibrary {
         };
         let mut surface = completed(mesh, f32::from_bits(key.thickness), heights)?;
         Skin::of(mesh, surface.positions.len())?.pose(&mut surface, matrices)?;
-        let found = facets_within(&surface, assets.limits().facets)?;
+        let most = assets.limits().facets;
+        let found = facets_within(&surface, most)?;
         if found.facets.is_empty() {
             return Ok(None);
         }
-        if geometry.renew(&found, &mut assets.buffers) {
-            self.materials.retain(|keys, _| keys.geometry != key);
-            self.is_stale = true;
-        }
+        geometry.renew(&found, &self.space, most);
         Ok(Some(geometry))
     }
 
-    /// Facets that were changed in this frame, and their buffers.
-    pub(crate) fn changed(&self) -> impl Iterator<Item = &Geometry> {
-        let geometries = self.geometries.values().flatten();
-        geometries.filter(|geometry| !geometry.changed.is_empty())
+    /// The facets of all surfaces.
+    pub(crate) fn geometries(&self) -> impl Iterator<Item = &Geometry> {
+        self.geometries.values().flatten()
     }
 
     /// Begins a frame in which no facet has changed yet.
     pub(crate) fn settle(&mut self) {
+        self.frame += 1;
         for geometry in self.geometries.values_mut().flatten() {
-            geometry.changed.clear();
+            geometry.settle();
         }
     }
 
@@ -434,18 +438,20 @@ impl TexelLibrary {
     pub(crate) fn clear(&mut self) {
         *self = Self {
             is_stale: true,
+            frame: self.frame,
             ..Self::default()
         };
     }
 
     /// Forgets what no surface uses any more.
     pub(crate) fn keep(&mut self, used: &HashSet<TexelKeys>) {
-        self.materials.retain(|keys, _| used.contains(keys));
+        let materials: HashSet<_> = used.iter().map(|keys| keys.material).collect();
+        self.materials.retain(|key, _| materials.contains(key));
         let geometries: HashSet<_> = used.iter().map(|keys| keys.geometry).collect();
         // What was told once need not be told again.
         self.geometries
             .retain(|key, geometry| geometries.contains(key) || geometry.is_none());
-        let volumes: HashSet<_> = used.iter().map(|keys| keys.volume).collect();
+        let volumes: HashSet<_> = materials.iter().map(|key| key.volume).collect();
         self.volumes.retain(|key, _| volumes.contains(key));
     }
 }

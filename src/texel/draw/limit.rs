@@ -6,7 +6,8 @@ use super::super::axis::SliceAxis;
 use super::super::facet::{Facet, slice_range};
 use super::records::FacetRecord;
 
-/// The most slices that a surface may show across each axis in one view. 32 bytes each.
+/// The most slices that a surface may show across each axis in one view. 32 bytes each; those of all surfaces and views of a frame
+/// are in one buffer, and what does not fit in that is left out, with an error.
 pub const MAX_SLICES: usize = 1 << 21;
 
 /// What of a surface and a volume fits on a device.
@@ -14,7 +15,7 @@ pub const MAX_SLICES: usize = 1 << 21;
 pub(crate) struct DeviceLimits {
     /// Layers of a texture array.
     pub layers: u32,
-    /// Facets in a storage buffer.
+    /// Facets in a storage buffer: a surface has one at most, and shares it if it can.
     pub facets: usize,
 }
 

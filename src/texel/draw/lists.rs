@@ -1,121 +1,29 @@
-//! The slices of every surface in every view, listed anew in each frame.
+//! The slices of every surface in every view. What has changed is listed anew, and if anything has, all lists are written to
+//! the GPU.
 
 use core::ops::Range;
 
-use bevy::camera::primitives::Frustum;
-use bevy::camera::visibility::RenderLayers;
-use bevy::camera::{Camera3d, MainPassResolutionOverride};
-use bevy::light::{NotShadowCaster, NotShadowReceiver};
-use bevy::math::Affine3A;
-use bevy::pbr::{LightEntity, MeshFlags};
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
-use bevy::render::Extract;
 use bevy::render::render_resource::{Buffer, BufferUsages, RawBufferVec};
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy::render::sync_world::MainEntity;
-use bevy::render::view::ExtractedView;
-use bevy::tasks::ComputeTaskPool;
 
+use super::extract::ExtractedTexels;
+use super::groups::Groups;
+use super::jobs::{Job, list_stale};
+use super::leader::Leaders;
 use super::records::{SliceRecord, SurfaceRecord};
-use super::source::{SeenFrom, SliceSource, view_from_eye};
-use super::upload::TexelStats;
-use crate::wind::Wind;
+use super::stats::TexelStats;
+use super::view::{Seeing, ShowsTexels, ViewInFrame, views};
 
-/// A surface in this frame.
-struct SurfaceInFrame {
-    source: SliceSource,
-    world_from_local: Affine3A,
-    previous: Affine3A,
-    flags: MeshFlags,
-    casts_shadows: bool,
-    layers: RenderLayers,
-}
-
-/// The surfaces of this frame.
-#[derive(Resource, Default)]
-pub(crate) struct ExtractedTexels {
-    surfaces: Vec<SurfaceInFrame>,
-    /// Where surfaces are.
-    places: HashMap<Entity, Affine3A>,
-    /// Where they were.
-    previous: HashMap<Entity, Affine3A>,
-    /// The layers of views and lights, where these are not the usual one.
-    layers: HashMap<Entity, RenderLayers>,
-    wind: Vec3,
-}
-
-/// What is extracted of a surface.
-type Extracted<'w> = (
-    Entity,
-    &'w SliceSource,
-    &'w GlobalTransform,
-    &'w InheritedVisibility,
-    Has<NotShadowReceiver>,
-    Has<NotShadowCaster>,
-    Option<&'w RenderLayers>,
-);
-
-/// What sees, or casts light.
-type Sees = Or<(
-    With<Camera3d>,
-    With<DirectionalLight>,
-    With<PointLight>,
-    With<SpotLight>,
-)>;
-
-/// Takes the surfaces over into the render world.
-pub(crate) fn extract(
-    mut texels: ResMut<ExtractedTexels>,
-    surfaces: Extract<Query<Extracted>>,
-    views: Extract<Query<(Entity, &RenderLayers), Sees>>,
-    wind: Extract<Res<Wind>>,
-) {
-    let texels = &mut *texels;
-    texels.wind = wind.limited();
-    core::mem::swap(&mut texels.places, &mut texels.previous);
-    texels.places.clear();
-    texels.surfaces.clear();
-    texels.layers.clear();
-    let layers = views.iter().map(|(view, layers)| (view, layers.clone()));
-    texels.layers.extend(layers);
-    for (entity, source, transform, visibility, receives_none, casts_none, layers) in &surfaces {
-        if !visibility.get() {
-            continue;
-        }
-        let world_from_local = transform.affine();
-        let previous = texels.previous.get(&entity).copied();
-        texels.places.insert(entity, world_from_local);
-        let mut flags = MeshFlags::NONE;
-        flags.set(
-            MeshFlags::SHADOW_RECEIVER | MeshFlags::TRANSMITTED_SHADOW_RECEIVER,
-            !receives_none,
-        );
-        texels.surfaces.push(SurfaceInFrame {
-            source: source.clone(),
-            world_from_local,
-            previous: previous.unwrap_or(world_from_local),
-            flags,
-            casts_shadows: !casts_none,
-            layers: layers.cloned().unwrap_or_default(),
-        });
-    }
-}
-
-/// One surface in one view.
-#[derive(Default)]
-struct Job {
-    view: usize,
-    surface: usize,
-    order: Vec<(f32, u32)>,
-    lists: [Vec<SliceRecord>; 3],
-}
-
-/// What a view has of a surface across one axis.
-#[derive(Clone)]
-struct Listed {
-    records: Range<u32>,
-    surface: u64,
+/// Slices that are drawn at once: what a view has of a group of surfaces across one axis.
+pub(crate) struct Run {
+    /// Which slices.
+    pub records: Range<u32>,
+    /// The buffer that their facets are in.
+    pub pool: usize,
+    pub leaders: Leaders,
 }
 
 /// The slices of every surface in every view of this frame, on the GPU.
@@ -123,22 +31,26 @@ struct Listed {
 pub(crate) struct SliceLists {
     records: RawBufferVec<SliceRecord>,
     surfaces: RawBufferVec<SurfaceRecord>,
-    /// By view, and by the entity whose slices they are.
-    listed: HashMap<(Entity, MainEntity), Listed>,
-    views: Vec<(Entity, RenderLayers, SeenFrom)>,
-    /// Kept from frame to frame, so that nothing is allocated.
-    jobs: Vec<Job>,
+    groups: Groups,
+    views: Vec<ViewInFrame>,
+    /// The numbers of views.
+    numbers: HashMap<Entity, usize>,
+    /// By view, in the order of surfaces. Kept from frame to frame.
+    jobs: Vec<Vec<Job>>,
+    /// By view, group and axis.
+    runs: Vec<Run>,
 }
 
 impl Default for SliceLists {
     fn default() -> Self {
-        let usage = BufferUsages::VERTEX | BufferUsages::COPY_DST;
         let mut lists = Self {
-            records: RawBufferVec::new(usage),
-            surfaces: RawBufferVec::new(usage),
-            listed: HashMap::default(),
+            records: RawBufferVec::new(BufferUsages::VERTEX),
+            surfaces: RawBufferVec::new(BufferUsages::STORAGE),
+            groups: Groups::default(),
             views: Vec::new(),
+            numbers: HashMap::default(),
             jobs: Vec::new(),
+            runs: Vec::new(),
         };
         lists.records.set_label(Some("texel slices"));
         lists.surfaces.set_label(Some("texel surfaces"));
@@ -147,104 +59,122 @@ impl Default for SliceLists {
 }
 
 impl SliceLists {
-    /// The buffers of slices and of surfaces, which of the slices there are, and where the surface is, in bytes.
-    pub(crate) fn get(
-        &self,
-        view: Entity,
-        slices: MainEntity,
-    ) -> Option<(&Buffer, &Buffer, Range<u32>, u64)> {
-        let listed = self.listed.get(&(view, slices))?;
-        let (records, surfaces) = (self.records.buffer()?, self.surfaces.buffer()?);
-        Some((records, surfaces, listed.records.clone(), listed.surface))
+    /// The buffer of slices, and which of them an item of a view stands for, if there are any.
+    pub(crate) fn run(&self, view: Entity, slices: MainEntity) -> Option<(&Buffer, &Run)> {
+        let view = self.numbers.get(&view)?;
+        let (group, axis) = self.groups.of_slices(slices)?;
+        let run = (view * self.groups.len() + group) * 3 + axis;
+        let run = self.runs.get(run).filter(|run| !run.records.is_empty())?;
+        Some((self.records.buffer()?, run))
     }
 
-    /// Lists what all views have of all surfaces, in parallel: at most so many slices.
-    fn list(&mut self, texels: &ExtractedTexels, limit: usize) {
-        let count = self.views.len() * texels.surfaces.len();
-        self.jobs
-            .resize_with(count.max(self.jobs.len()), Job::default);
-        let pairs =
-            (0..self.views.len()).flat_map(|v| (0..texels.surfaces.len()).map(move |s| (v, s)));
-        for (job, (view, surface)) in self.jobs.iter_mut().zip(pairs) {
-            (job.view, job.surface) = (view, surface);
+    /// The buffer of surfaces.
+    pub(crate) fn surfaces(&self) -> Option<&Buffer> {
+        self.surfaces.buffer()
+    }
+
+    /// Begins a frame with these views. Tells whether they are others than before, wherever they are now.
+    fn look(&mut self, views: impl Iterator<Item = ViewInFrame>) -> bool {
+        self.views.clear();
+        self.views.extend(views);
+        // What is seen itself goes before what casts shadows.
+        self.views
+            .sort_unstable_by_key(|view| (view.from.is_light, view.entity));
+        let numbers = self.views.iter().enumerate();
+        let mut numbers = numbers.map(|(number, view)| (view.entity, number));
+        let are_the_same = self.numbers.len() == self.views.len()
+            && numbers.all(|(view, number)| self.numbers.get(&view) == Some(&number));
+        if !are_the_same {
+            self.numbers.clear();
+            let numbers = self.views.iter().enumerate();
+            self.numbers
+                .extend(numbers.map(|(number, view)| (view.entity, number)));
         }
-        let pool = ComputeTaskPool::get();
-        let chunk = count.div_ceil(4 * pool.thread_num().max(1)).max(1);
-        let views = &self.views;
-        pool.scope(|scope| {
-            for jobs in self.jobs[..count].chunks_mut(chunk) {
-                scope.spawn(async move {
-                    for job in jobs {
-                        job.lists.iter_mut().for_each(Vec::clear);
-                        let surface = &texels.surfaces[job.surface];
-                        let (_, layers, from) = &views[job.view];
-                        let is_hidden = from.is_light && !surface.casts_shadows;
-                        if is_hidden || !layers.intersects(&surface.layers) {
-                            continue;
-                        }
-                        surface.source.list(
-                            &surface.world_from_local,
-                            from,
-                            &mut job.order,
-                            &mut job.lists,
-                        );
-                    }
-                });
+        !are_the_same
+    }
+
+    /// Lists in parallel what has changed. Tells how many lists that are.
+    fn list(&mut self, texels: &ExtractedTexels) -> usize {
+        let mut listed = 0;
+        self.jobs.resize_with(self.views.len(), Vec::new);
+        for (view, jobs) in self.views.iter().zip(&mut self.jobs) {
+            jobs.resize_with(self.groups.job_count(), Job::default);
+            for (job, (surface, part)) in jobs.iter_mut().zip(self.groups.jobs()) {
+                let is_stale = job.follow(view, &texels.surfaces[surface], part);
+                listed += usize::from(is_stale);
             }
-        });
+        }
+        list_stale(self.jobs.iter_mut().flatten(), listed);
+        listed
+    }
+
+    /// Joins lists to runs: at most so many slices.
+    fn join(&mut self, texels: &ExtractedTexels, limit: usize) {
         self.records.clear();
-        self.surfaces.clear();
-        self.listed.clear();
-        for surface in &texels.surfaces {
-            let record =
-                SurfaceRecord::new(&surface.world_from_local, &surface.previous, &surface.flags);
-            self.surfaces.push(record);
-        }
-        for job in &self.jobs[..count] {
-            let view = self.views[job.view].0;
-            let slices = texels.surfaces[job.surface].source.slices;
-            for (axis, list) in job.lists.iter().enumerate() {
-                if list.is_empty() {
-                    continue;
-                }
-                if self.records.len() + list.len() > limit {
-                    error_once!(
-                        "texels are left out: a frame has more than {limit} slices, all that a buffer of this device \
-                         takes; raise TexelQuality::pixels or depth, or lower TexelSettings::most_slices"
-                    );
-                    continue;
-                }
-                let start = self.records.len() as u32;
-                self.records.extend(list.iter().copied());
-                let listed = Listed {
-                    records: start..self.records.len() as u32,
-                    surface: (job.surface * size_of::<SurfaceRecord>()) as u64,
-                };
-                for entity in [slices[axis], slices[axis + 3]] {
-                    self.listed.insert((view, entity.into()), listed.clone());
+        self.runs.clear();
+        for (view, jobs) in self.views.iter().zip(&self.jobs) {
+            for group in self.groups.sorted(&texels.surfaces, &view.from) {
+                for axis in 0..3 {
+                    let start = self.records.len() as u32;
+                    for placed in group {
+                        for job in &jobs[placed.jobs.clone()] {
+                            let list = &job.lists[axis];
+                            if self.records.len() + list.len() > limit {
+                                error_once!(
+                                    "texels are left out: a frame has more than {limit} slices, all that a buffer of this \
+                                     device takes; raise TexelQuality::pixels or depth, or lower TexelSettings::most_slices"
+                                );
+                                continue;
+                            }
+                            let surface = placed.surface as u32;
+                            let records = list.iter().map(|slice| slice.of_surface(surface));
+                            self.records.extend(records);
+                        }
+                    }
+                    self.runs.push(Run {
+                        records: start..self.records.len() as u32,
+                        pool: group[0].pool,
+                        leaders: Leaders::default(),
+                    });
                 }
             }
         }
+    }
+
+    /// Writes all slices. Tells how many bytes that are.
+    fn write(&mut self, limit: usize, device: &RenderDevice, queue: &RenderQueue) -> usize {
+        // Not for each that is added a buffer anew.
+        let capacity = self.records.len().next_power_of_two().min(limit);
+        self.records.reserve(capacity, device);
+        self.records.write_buffer(device, queue);
+        size_of_val(self.records.values().as_slice())
+    }
+
+    /// Writes where surfaces are, if they have moved. Tells how many bytes that are.
+    fn write_surfaces(
+        &mut self,
+        texels: &ExtractedTexels,
+        device: &RenderDevice,
+        queue: &RenderQueue,
+    ) -> usize {
+        let records = texels.surfaces.iter().map(|surface| surface.record);
+        if records.clone().eq(self.surfaces.values().iter().copied()) {
+            return 0;
+        }
+        self.surfaces.clear();
+        self.surfaces.extend(records);
+        let capacity = self.surfaces.len().next_power_of_two();
+        self.surfaces.reserve(capacity, device);
+        self.surfaces.write_buffer(device, queue);
+        size_of_val(self.surfaces.values().as_slice())
     }
 }
-
-/// What is asked of a view.
-type Seeing<'w> = (
-    Entity,
-    &'w ExtractedView,
-    Has<LightEntity>,
-    Option<&'w Frustum>,
-    Option<&'w MainPassResolutionOverride>,
-);
-
-/// Views that may show texels.
-type ShowsTexels = Or<(With<Camera3d>, With<LightEntity>)>;
 
 /// Chooses slices for every surface in every view, and writes the lists of them to the GPU.
 pub(crate) fn list_slices(
     mut lists: ResMut<SliceLists>,
     texels: Res<ExtractedTexels>,
-    views: Query<Seeing, ShowsTexels>,
+    found: Query<Seeing, ShowsTexels>,
     time: Res<Time>,
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
@@ -255,44 +185,19 @@ pub(crate) fn list_slices(
         *lists = SliceLists::default();
     }
     let lists = &mut *lists;
-    lists.views.clear();
-    if !texels.surfaces.is_empty() {
-        let seen = views
-            .iter()
-            .map(|(entity, view, is_light, frustum, resolution)| {
-                let world_from_view = view.world_from_view.affine();
-                let height = resolution.map_or(view.viewport.w, |resolution| resolution.0.y);
-                let half_spaces =
-                    frustum.map(|frustum| frustum.half_spaces.map(|half| half.normal_d()));
-                let from = SeenFrom {
-                    view: view_from_eye(
-                        &world_from_view,
-                        &view.clip_from_view,
-                        height as f32,
-                        half_spaces.as_ref(),
-                    ),
-                    eye: world_from_view.translation.into(),
-                    is_light,
-                    wind: texels.wind,
-                    time: time.elapsed_secs_wrapped(),
-                };
-                // Those of a light are its own, in all its views.
-                let layers = texels
-                    .layers
-                    .get(&view.retained_view_entity.main_entity.id());
-                (entity, layers.cloned().unwrap_or_default(), from)
-            });
-        lists.views.extend(seen);
-    }
-    // What is seen itself goes before what casts shadows.
-    lists.views.sort_by_key(|(_, _, from)| from.is_light);
+    let views = views(&found, &texels, time.elapsed_secs_wrapped());
+    let are_others = lists.look(views) | lists.groups.follow(&texels.surfaces);
+    stats.listed = lists.list(&texels);
     let limit = device.limits().max_buffer_size as usize / size_of::<SliceRecord>();
     let limit = limit.min(u32::MAX as usize);
-    lists.list(&texels, limit);
-    stats.slices = lists.records.len();
-    // Not for each that is added a buffer anew.
-    let capacity = lists.records.len().next_power_of_two().min(limit);
-    lists.records.reserve(capacity, &device);
-    lists.records.write_buffer(&device, &queue);
-    lists.surfaces.write_buffer(&device, &queue);
+    stats.list_bytes = lists.write_surfaces(&texels, &device, &queue);
+    if are_others || stats.listed > 0 {
+        lists.join(&texels, limit);
+        stats.list_bytes += lists.write(limit, &device, &queue);
+    }
+    for run in &mut lists.runs {
+        run.leaders.clear();
+    }
+    let draws = lists.runs.iter().filter(|run| !run.records.is_empty());
+    (stats.slices, stats.draws) = (lists.records.len(), draws.count());
 }

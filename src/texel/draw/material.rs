@@ -11,17 +11,17 @@ use bevy::render::render_resource::{
     AsBindGroup, BlendState, ColorWrites, CompareFunction, RenderPipelineDescriptor, ShaderType,
     SpecializedMeshPipelineError,
 };
-use bevy::render::storage::ShaderBuffer;
 use bevy::shader::{ShaderDefVal, ShaderRef};
 
 use super::super::axis::SliceAxis;
 use super::super::choose::VolumeMeasure;
+use super::bindings::{TEXEL_GROUP, bind_group_layout};
 use super::component::TexelSettings;
-use super::records::vertex_buffers;
+use super::records::vertex_buffer;
 use crate::lighting::{PlantLighting, SceneLighting, limited_transmission};
 use crate::pipeline::{define, embedded_shader, names};
 
-/// What the shaders have of a volume and a surface's settings.
+/// What the shaders have of a volume and the settings of surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, ShaderType)]
 pub(crate) struct TexelsUniform {
     lengths: Vec3,
@@ -48,19 +48,17 @@ impl TexelsUniform {
     }
 }
 
-/// The material of the slices of a surface across one axis. Made by the plugin.
+/// The material of the slices of a volume across one axis, on all surfaces of the same looks. Made by the plugin.
 #[derive(Asset, AsBindGroup, Clone, Debug, TypePath)]
 #[bind_group_data(TexelKey)]
 pub struct TexelMaterial {
     #[uniform(0)]
     pub(crate) texels: TexelsUniform,
-    #[storage(1, read_only)]
-    pub(crate) facets: Handle<ShaderBuffer>,
+    #[texture(1, dimension = "2d_array")]
+    #[sampler(3)]
+    pub(crate) color: Handle<Image>,
     #[texture(2, dimension = "2d_array")]
     #[sampler(4)]
-    pub(crate) color: Handle<Image>,
-    #[texture(3, dimension = "2d_array")]
-    #[sampler(5)]
     pub(crate) normal: Handle<Image>,
     pub(crate) axis: SliceAxis,
     /// What lights them in this scene.
@@ -133,7 +131,9 @@ impl Material for TexelMaterial {
         _: &MeshVertexBufferLayoutRef,
         key: MaterialPipelineKey<Self>,
     ) -> Result<(), SpecializedMeshPipelineError> {
-        descriptor.vertex.buffers = vertex_buffers();
+        descriptor.vertex.buffers = vec![vertex_buffer()];
+        // In place of Bevy's meshes, of which the shaders read none.
+        descriptor.layout[TEXEL_GROUP] = bind_group_layout();
         descriptor.primitive.topology = PrimitiveTopology::TriangleStrip;
         descriptor.primitive.cull_mode = None;
         let own = key.bind_group_data;

@@ -2,14 +2,17 @@
 //! needs.
 //!
 //! 1. A [`TexelSurface`] on an entity names a volume (`component.rs`). Its mesh becomes facets (`surface_mesh.rs`), which
-//!    the GPU has in a storage buffer (`records.rs`), and the volume three pairs of texture arrays (`images.rs`). What is
-//!    alike is shared (`geometry.rs`, `library.rs`). Children of the surface have the materials (`systems.rs`).
-//! 2. In each frame, and for each view, those of lights too, slices are [chosen](super::choose_fading) for every facet, and
-//!    listed, near ones first: by the CPU, in parallel, without allocating (`source.rs`, `lists.rs`). So shadow maps have
-//!    the slices that their light needs, at a quality of their own ([`TexelSettings::shadows`]).
-//!    Of each slice only the box that shows anything is drawn.
-//! 3. The lists are drawn in Bevy's phases in place of meshes (`commands.rs`): each slice is a strip of four corners that
-//!    the vertex shader cuts out of the facet's prism (`shaders/place.wgsl`, `shaders/facet.wgsl`).
+//!    the GPU has in one storage buffer with those of all surfaces (`records.rs`, `room.rs`, `upload.rs`), and the volume three
+//!    pairs of texture arrays (`images.rs`). What is alike is shared (`geometry.rs`, `library.rs`). Children of the surface
+//!    have the materials (`systems.rs`).
+//! 2. In each frame (`extract.rs`), and for each view, those of lights too, slices are [chosen](super::choose_fading) for every
+//!    facet, and listed, near ones first: by the CPU, in parallel, without allocating (`view.rs`, `source.rs`, `jobs.rs`). So shadow maps
+//!    have the slices that their light needs, at a quality of their own ([`TexelSettings::shadows`]).
+//!    Of each slice only the box that shows anything is drawn. Lists that would come out as they are already are kept.
+//! 3. Surfaces of one volume and the same looks are a group (`groups.rs`). Their lists are joined, near surfaces first
+//!    (`lists.rs`), and drawn at once in Bevy's phases in place of meshes (`commands.rs`, `bindings.rs`), when the first of their
+//!    children comes (`leader.rs`): each slice is a strip of four corners that the vertex shader cuts out of the facet's prism
+//!    (`shaders/place.wgsl`, `shaders/facet.wgsl`).
 //! 4. Fragments are those of one slice: opaque, or discarded (`shaders/look.wgsl`). So they need no sorting, and texels
 //!    that overlap interpenetrate. Depth is drawn first, in the phase of opaque objects; then, in that of masked ones, the
 //!    colours of what is at that depth (`material.rs`), lit by the scene by the volume's normals (`shaders/forward.wgsl`).
@@ -28,11 +31,13 @@
 //! seen is lit and shadowed a little above it, or solids would shade themselves in specks (`TexelSettings::stand_off`). Facets of a bent surface are shaded by the mesh's normals, so that they do not show.
 //!
 //! # What it costs
-//! A surface is three draws for depth and three for colours, one for each axis, where that axis has slices; three in a
-//! shadow map. Light costs what is seen; most of the rest is looking up, slice by slice, what is there, in shadow maps as
-//! well: fewer pixels of these save slices. On a camera with a
-//! [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) that draws the depth. On the GPU a volume has all its sets
-//! of slices, some 64 bytes a voxel.
+//! A group of surfaces is three draws for depth and three for colours, one for each axis, where that axis has slices; three in a
+//! shadow map. Settings that split groups are those of light and material, `flexibility`, `inner_slices` and `most_slices`; meshes,
+//! transforms, thickness and quality do not. Where neither the view nor a surface moves, and no wind bends it, nothing is chosen,
+//! listed or written; else all lists of the frame are joined and written, 32 bytes a slice ([`TexelStats`] counts them). Light
+//! costs what is seen; most of the rest is looking up, slice by slice, what is there, in shadow maps as well: fewer pixels of
+//! these save slices. On a camera with a [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) that draws the depth. On
+//! the GPU a volume has all its sets of slices, some 64 bytes a voxel.
 //!
 //! # What it does not do
 //! Meshes with morph targets carry texels where they are at rest, with a warning. Motion vectors leave skins and wind out.
@@ -44,22 +49,30 @@
 
 #[cfg(test)]
 mod allocations;
+mod bindings;
 mod brush;
 mod combed;
 mod commands;
 mod component;
+mod extract;
 mod geometry;
+mod groups;
 mod images;
+mod jobs;
+mod leader;
 mod library;
 mod limit;
 mod lists;
 mod material;
 mod records;
+mod room;
 mod skin;
 mod source;
+mod stats;
 mod surface_mesh;
 mod systems;
 mod upload;
+mod view;
 
 use bevy::asset::AssetEventSystems;
 use bevy::camera::visibility::VisibilitySystems;
@@ -79,9 +92,9 @@ pub use component::{
 };
 pub use limit::MAX_SLICES;
 pub use material::TexelMaterial;
+pub use stats::TexelStats;
 pub use surface_mesh::TexelSurfaceError;
 pub use systems::TexelSlices;
-pub use upload::TexelStats;
 
 use crate::VerdureSystems;
 use crate::lighting::LightingPlugin;
@@ -147,14 +160,16 @@ impl Plugin for TexelPlugin {
             return;
         };
         render_app
-            .init_resource::<lists::ExtractedTexels>()
+            .init_resource::<bindings::TexelBindGroups>()
+            .init_resource::<extract::ExtractedTexels>()
             .init_resource::<lists::SliceLists>()
+            .init_resource::<stats::TexelStats>()
+            .init_resource::<upload::FacetBuffers>()
             .add_render_command::<Opaque3d, commands::DrawTexelDepth>()
             .add_render_command::<AlphaMask3d, commands::DrawTexels>()
             .add_render_command::<AlphaMask3dPrepass, commands::DrawTexelsBefore>()
             .add_render_command::<Shadow, commands::DrawTexelsBefore>()
-            .init_resource::<upload::TexelStats>()
-            .add_systems(ExtractSchedule, (lists::extract, upload::upload))
+            .add_systems(ExtractSchedule, (extract::extract, upload::upload))
             .add_systems(
                 Render,
                 (
@@ -162,6 +177,7 @@ impl Plugin for TexelPlugin {
                         .in_set(RenderSystems::PrepareAssets)
                         .after(prepare_erased_assets::<MeshMaterial3d<TexelMaterial>>),
                     lists::list_slices.in_set(RenderSystems::PrepareResources),
+                    bindings::prepare_bind_groups.in_set(RenderSystems::PrepareBindGroups),
                 ),
             );
     }

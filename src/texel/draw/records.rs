@@ -1,11 +1,9 @@
 //! What the GPU gets of facets, surfaces and slices.
 
-use bevy::asset::RenderAssetUsages;
 use bevy::math::{Affine3A, Mat4, Vec3};
 use bevy::mesh::{VertexBufferLayout, VertexFormat};
 use bevy::pbr::MeshFlags;
 use bevy::render::render_resource::VertexStepMode;
-use bevy::render::storage::ShaderBuffer;
 use bytemuck::{Pod, Zeroable};
 
 use super::super::facet::Facet;
@@ -43,17 +41,53 @@ impl FacetRecord {
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct SliceRecord {
-    /// Its number on the surface.
+    /// Its number in the buffer of facets.
     pub facet: u32,
-    /// Number k of the slice, and N, of so many a texel.
+    /// Number k of the slice.
     pub slice: i32,
-    pub count: u32,
+    /// The exponent of N, of so many a texel, in the lowest bits; above it the number of the surface in this frame.
+    set: u32,
     /// Which pixels are its, by their lots.
     pub lots: [f32; 2],
     /// How far above the place that is seen light falls on it.
     pub stand_off: f32,
     /// What of it is drawn.
     pub trim: Trim,
+}
+
+/// Bits of the exponent of a count.
+const EXPONENT_BITS: u32 = 5;
+
+/// The most surfaces that a frame may have.
+pub(crate) const MAX_SURFACES: usize = 1 << (u32::BITS - EXPONENT_BITS);
+
+impl SliceRecord {
+    /// One of a power of two a texel, of a surface whose number is not known yet.
+    pub(crate) fn new(
+        facet: u32,
+        slice: i32,
+        count: u32,
+        lots: [f32; 2],
+        stand_off: f32,
+        trim: Trim,
+    ) -> Self {
+        Self {
+            facet,
+            slice,
+            set: count.ilog2(),
+            lots,
+            stand_off,
+            trim,
+        }
+    }
+
+    /// The same of a surface.
+    pub(crate) fn of_surface(&self, surface: u32) -> Self {
+        Self {
+            set: self.set | surface << EXPONENT_BITS,
+            ..*self
+        }
+    }
 }
 
 /// A surface, the same for all its slices.
@@ -63,8 +97,8 @@ pub(crate) struct SurfaceRecord {
     /// Rows of the transform from the surface to the world, now and in the frame before.
     world_from_local: [[f32; 4]; 3],
     previous: [[f32; 4]; 3],
-    /// Bevy's flags of the mesh.
-    flags: u32,
+    /// Bevy's flags of the mesh, and three more numbers: shaders have records in whole rows.
+    flags: [u32; 4],
 }
 
 impl SurfaceRecord {
@@ -76,30 +110,44 @@ impl SurfaceRecord {
         Self {
             world_from_local: rows(world_from_local),
             previous: rows(previous),
-            flags: flags.bits(),
+            flags: [flags.bits(), 0, 0, 0],
         }
     }
 }
 
-/// How the vertex stage reads [`SliceRecord`]s and, the same one for all, a [`SurfaceRecord`].
-pub(crate) fn vertex_buffers() -> Vec<VertexBufferLayout> {
-    let slices = [
+/// How the vertex stage reads [`SliceRecord`]s.
+pub(crate) fn vertex_buffer() -> VertexBufferLayout {
+    let formats = [
         VertexFormat::Uint32x3,
         VertexFormat::Float32x3,
         VertexFormat::Unorm16x4,
     ];
-    let surface = core::iter::repeat_n(VertexFormat::Float32x4, 6).chain([VertexFormat::Uint32]);
-    let mut slices = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, slices);
-    let mut surface = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, surface);
-    slices.array_stride = size_of::<SliceRecord>() as u64;
-    surface = surface.offset_locations_by(3);
-    surface.array_stride = 0;
-    vec![slices, surface]
+    let mut layout = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, formats);
+    layout.array_stride = size_of::<SliceRecord>() as u64;
+    layout
 }
 
-/// The buffer of a surface's facets, with room for `capacity`, which is at least one.
-pub(crate) fn facet_buffer(records: &[FacetRecord], capacity: usize) -> ShaderBuffer {
-    let mut buffer = ShaderBuffer::new(bytemuck::cast_slice(records), RenderAssetUsages::default());
-    buffer.resize((capacity * size_of::<FacetRecord>()) as u64);
-    buffer
+#[cfg(test)]
+mod tests {
+    use super::super::super::slice_sets::WHOLE;
+    use super::*;
+
+    #[test]
+    fn records_are_as_long_as_the_shaders_take_them_to_be() {
+        assert_eq!(size_of::<FacetRecord>(), 9 * 16);
+        assert_eq!(size_of::<SurfaceRecord>(), 7 * 16);
+        assert_eq!(size_of::<SliceRecord>(), 32);
+    }
+
+    #[test]
+    fn a_slice_s_count_and_surface_do_not_mix() {
+        for count in [1, 2, 256, 1 << 31] {
+            let record = SliceRecord::new(7, -3, count, [0.0, 1.0], 0.0, WHOLE);
+            let last = MAX_SURFACES as u32 - 1;
+            for surface in [0, 1, last] {
+                let set = record.of_surface(surface).set;
+                assert_eq!((1 << (set & 31), set >> 5), (count, surface));
+            }
+        }
+    }
 }

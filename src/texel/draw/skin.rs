@@ -116,7 +116,7 @@ type Skinned<'w> = (
 /// posed stays as it was, and tells why once.
 pub(crate) fn follow_skins(
     mut library: ResMut<TexelLibrary>,
-    mut assets: TexelAssets,
+    assets: TexelAssets,
     bindposes: Option<Res<Assets<SkinnedMeshInverseBindposes>>>,
     joints: Query<Ref<GlobalTransform>>,
     mut surfaces: Query<Skinned>,
@@ -144,7 +144,7 @@ pub(crate) fn follow_skins(
         let key = drawn.geometry();
         let bindpose = bindposes.get(&skinned.inverse_bindposes);
         let posed = matrices(&skinned, bindpose, &joints, &transform)
-            .and_then(|matrices| library.pose(key, heights.as_deref(), &matrices, &mut assets));
+            .and_then(|matrices| library.pose(key, heights.as_deref(), &matrices, &assets));
         match posed {
             Ok(posed) => {
                 told.remove(&entity);
@@ -152,7 +152,7 @@ pub(crate) fn follow_skins(
                     continue;
                 };
                 let bounds = geometry.bounds_in_wind(settings.limited_flexibility());
-                if source.follow(&geometry.facets, bounds) {
+                if source.follow(geometry, bounds) {
                     for child in source.slices {
                         if let Ok(mut seen) = slices.get_mut(child) {
                             seen.set_if_neq(bounds);

@@ -1,7 +1,9 @@
 //! What the slices of a surface are chosen from.
 
+use core::ops::Range;
 use std::sync::Arc;
 
+use bevy::asset::AssetId;
 use bevy::camera::primitives::Aabb;
 use bevy::math::primitives::ViewFrustum;
 use bevy::math::{Affine3A, Mat4, Vec3, Vec3A, Vec4};
@@ -11,7 +13,10 @@ use super::super::choose::{TexelQuality, TexelView, VolumeMeasure, choose_fading
 use super::super::facet::{Facet, bend, slice_range};
 use super::super::slice_sets::{SliceBoxes, WHOLE};
 use super::component::TexelSettings;
+use super::geometry::Geometry;
+use super::material::TexelMaterial;
 use super::records::SliceRecord;
+use super::room::FacetRoom;
 
 /// What of a volume its slices are chosen by.
 #[derive(Clone, Debug)]
@@ -24,60 +29,68 @@ pub(crate) struct DrawnVolume {
 #[derive(Component, Clone, Debug)]
 pub(crate) struct SliceSource {
     /// In the space of the surface. All pass their check.
-    facets: Arc<[Facet]>,
+    pub facets: Arc<[Facet]>,
+    /// Where they are on the GPU.
+    pub room: Arc<FacetRoom>,
     /// What holds them.
     bounds: Aabb,
     volume: DrawnVolume,
     settings: TexelSettings,
     /// The children that colours across u, v and w are drawn by, and those for depth.
     pub slices: [Entity; 6],
+    /// The first one's material, which stands for all six.
+    pub material: AssetId<TexelMaterial>,
 }
 
 impl SliceSource {
     pub(crate) fn new(
-        facets: &Arc<[Facet]>,
+        geometry: &Geometry,
         bounds: Aabb,
         volume: DrawnVolume,
         settings: TexelSettings,
         slices: [Entity; 6],
+        material: AssetId<TexelMaterial>,
     ) -> Self {
         Self {
-            facets: facets.clone(),
+            facets: geometry.facets.clone(),
+            room: geometry.room.clone(),
             bounds,
             volume,
             settings,
             slices,
+            material,
         }
     }
 
     /// Follows facets that have moved. False if they have not.
-    pub(crate) fn follow(&mut self, facets: &Arc<[Facet]>, bounds: Aabb) -> bool {
-        let has_moved = !Arc::ptr_eq(&self.facets, facets);
+    pub(crate) fn follow(&mut self, geometry: &Geometry, bounds: Aabb) -> bool {
+        let has_moved = !Arc::ptr_eq(&self.facets, &geometry.facets);
         if has_moved {
-            self.facets = facets.clone();
+            self.facets = geometry.facets.clone();
+            self.room = geometry.room.clone();
             self.bounds = bounds;
         }
         has_moved
     }
 
-    /// Whether [`new`](Self::new) would make the same of these.
-    pub(crate) fn is_of(
-        &self,
-        facets: &Arc<[Facet]>,
-        volume: &DrawnVolume,
-        settings: &TexelSettings,
-        slices: [Entity; 6],
-    ) -> bool {
-        Arc::ptr_eq(&self.facets, facets)
-            && self.volume.measure == volume.measure
-            && Arc::ptr_eq(&self.volume.boxes, &volume.boxes)
-            && self.settings == *settings
-            && self.slices == slices
+    /// Whether it is drawn as another one is.
+    pub(crate) fn is_as(&self, other: &Self) -> bool {
+        self.lists_as(other) && self.slices == other.slices && self.material == other.material
+    }
+
+    /// Whether its slices are those of another one, wherever they are seen from.
+    pub(crate) fn lists_as(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.facets, &other.facets)
+            && Arc::ptr_eq(&self.room, &other.room)
+            && Arc::ptr_eq(&self.volume.boxes, &other.volume.boxes)
+            && self.volume.measure == other.volume.measure
+            && self.bounds == other.bounds
+            && self.settings == other.settings
     }
 }
 
 /// Where and when facets are seen.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SeenFrom {
     /// With its eye, if it has one, at zero.
     pub view: TexelView,
@@ -90,13 +103,42 @@ pub(crate) struct SeenFrom {
     pub time: f32,
 }
 
+impl SeenFrom {
+    /// How far a place is, or its square, that is `at` from the eye.
+    fn far(&self, at: Vec3) -> f32 {
+        let direction = self.view.direction;
+        direction.map_or(at.length_squared(), |ray| at.dot(ray))
+    }
+}
+
 impl SliceSource {
-    /// Lists the slices that a view has of a surface placed so, across u, v and w: near facets first, and on each the nearest
-    /// slices, so that they hide the far ones. `order` is for facets to be sorted in.
+    /// What of `from` its slices depend on: where no wind bends it, not the time.
+    pub(crate) fn heeded(&self, from: &SeenFrom) -> SeenFrom {
+        if from.wind == Vec3::ZERO || self.settings.limited_flexibility() == 0.0 {
+            let (wind, time) = (Vec3::ZERO, 0.0);
+            SeenFrom {
+                wind,
+                time,
+                ..*from
+            }
+        } else {
+            *from
+        }
+    }
+
+    /// How far its middle is, to be compared with others in the same view.
+    pub(crate) fn far(&self, world_from_local: &Affine3A, from: &SeenFrom) -> f32 {
+        let centre = world_from_local.transform_point3a(self.bounds.center);
+        from.far(Vec3::from(centre) - from.eye)
+    }
+
+    /// Lists the slices that a view has of some facets of a surface placed so, across u, v and w: near facets first, and on each
+    /// the nearest slices, so that they hide the far ones. `order` is for facets to be sorted in.
     pub(crate) fn list(
         &self,
         world_from_local: &Affine3A,
         from: &SeenFrom,
+        facets: Range<usize>,
         order: &mut Vec<(f32, u32)>,
         lists: &mut [Vec<SliceRecord>; 3],
     ) {
@@ -125,15 +167,13 @@ impl SliceSource {
         let fades = settings.fade && !from.is_light;
         let flexibility = settings.limited_flexibility();
         order.clear();
-        order.extend((0u32..).zip(&*self.facets).map(|(index, facet)| {
+        let numbers = facets.start as u32..;
+        order.extend(numbers.zip(&self.facets[facets]).map(|(index, facet)| {
             let at = eye_from_local.transform_point3(facet.positions[0]);
-            let far = from
-                .view
-                .direction
-                .map_or(at.length_squared(), |ray| at.dot(ray));
-            (far, index)
+            (from.far(at), index)
         }));
         order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let first = self.room.range.start as u32;
         for &mut (_, index) in order {
             let facet = &self.facets[index as usize];
             let positions = facet
@@ -172,14 +212,8 @@ impl SliceSource {
                             let boxes = &self.volume.boxes;
                             boxes.trim(facet.uvs, axis, slice, count, footprint)?
                         };
-                        Some(SliceRecord {
-                            facet: index,
-                            slice,
-                            count,
-                            lots,
-                            stand_off,
-                            trim,
-                        })
+                        let facet = first + index;
+                        Some(SliceRecord::new(facet, slice, count, lots, stand_off, trim))
                     };
                     let list = &mut lists[slices.axis.index()];
                     if slices.along {

@@ -133,7 +133,7 @@ pub(crate) fn attach(
         let heights = heights.as_deref();
         // One of joints is posed once these are where they are in this frame.
         if (is_live || is_stroked) && !is_skinned {
-            library.renew(keys.geometry, heights, &mut assets);
+            library.renew(keys.geometry, heights, &assets);
         }
         let found = library.drawn(keys, &owner, settings, heights, wind, &mut assets);
         let (geometry, volume, materials) = match found {
@@ -156,6 +156,7 @@ pub(crate) fn attach(
             Drawn::Slices(geometry, volume, materials) => (geometry, volume, materials),
         };
         let bounds = geometry.bounds_in_wind(settings.limited_flexibility());
+        let material = materials[0].id();
         let slices = if let Some(drawn) = drawn {
             for (child, material) in drawn.slices.iter().zip(materials) {
                 if let Ok((mut used, mut seen)) = slices.get_mut(*child) {
@@ -172,7 +173,7 @@ pub(crate) fn attach(
                     MeshMaterial3d(material),
                     bounds,
                     NoAutoAabb,
-                    // Each is drawn from lists of its own.
+                    // They are drawn together from lists of slices.
                     NoAutomaticBatching,
                     ChildOf(entity),
                 );
@@ -183,11 +184,9 @@ pub(crate) fn attach(
             let drawn = TexelDrawn { keys, slices };
             commands.entity(entity).try_insert(drawn);
         }
-        let is_as_before =
-            source.is_some_and(|source| source.is_of(&geometry.facets, &volume, settings, slices));
-        if !is_as_before {
-            let source = SliceSource::new(&geometry.facets, bounds, volume, *settings, slices);
-            commands.entity(entity).try_insert(source);
+        let fresh = SliceSource::new(geometry, bounds, volume, *settings, slices, material);
+        if source.is_none_or(|source| !source.is_as(&fresh)) {
+            commands.entity(entity).try_insert(fresh);
         }
     }
 }
@@ -199,7 +198,7 @@ pub(crate) fn follow_assets(
     mut edited_volumes: MessageReader<AssetEvent<TexelVolume>>,
     live: Query<(), With<LiveTexels>>,
     mut library: ResMut<TexelLibrary>,
-    mut assets: TexelAssets,
+    assets: TexelAssets,
 ) {
     library.settle();
     for event in edited_volumes.read() {
@@ -219,7 +218,7 @@ pub(crate) fn follow_assets(
             && seen.insert(*id)
         {
             // Live surfaces are followed anyway, but not those that share their mesh.
-            library.follow_mesh(*id, |owner| live.contains(owner), &mut assets);
+            library.follow_mesh(*id, |owner| live.contains(owner), &assets);
         }
     }
 }

@@ -3,6 +3,7 @@
 mod agreement;
 mod edits;
 mod fog;
+mod groups;
 mod lighting;
 mod models;
 mod passes;

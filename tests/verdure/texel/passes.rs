@@ -42,7 +42,8 @@ fn the_prepass_leaves_the_picture_as_it_is() {
 /// Where the tests' sun shines.
 const SUNLIGHT: Vec3 = Vec3::new(0.3, -1.0, 0.0);
 
-fn sun(studio: &mut Studio) {
+/// A sun with a shadow map.
+pub fn sun(studio: &mut Studio) {
     studio.world().spawn((
         DirectionalLight {
             illuminance: 5_000.0,

@@ -15,7 +15,8 @@ const FACET: usize = 144;
 /// Squares along each side of a lawn.
 const SIDE: usize = 8;
 
-fn stats(studio: &mut Studio) -> TexelStats {
+/// Those of the next frame.
+pub fn stats(studio: &mut Studio) -> TexelStats {
     studio.headless.step();
     let render = studio.headless.app().sub_app(RenderApp).world();
     *render.resource::<TexelStats>()

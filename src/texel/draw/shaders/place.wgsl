@@ -5,7 +5,7 @@
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_render::globals::Globals
 #import bevy_verdure::texel::facet::{Facet, TexelFrame, facet_point, facet_uv, normal_transform, slice_line_point, slice_position, in_frame, smooth_frame, texel_frame}
-#import bevy_verdure::texel::types::{facets, normal_texture, texels}
+#import bevy_verdure::texel::types::{facets, normal_texture, surfaces, texels}
 #import bevy_verdure::wind::sway
 
 #ifdef PREPASS_PIPELINE
@@ -17,24 +17,16 @@
 // Slices of each axis are a draw of their own.
 const AXIS: u32 = #{TEXEL_AXIS}u;
 
-// A slice and its surface, as records.rs writes them.
+// A slice, as records.rs writes it.
 struct Corner {
     @builtin(vertex_index) corner: u32,
-    // The facet, the number of the slice, and of how many a texel it is one.
+    // The facet, the number of the slice, and, of how many a texel it is one, the exponent, in the lowest 5 bits, below the
+    // number of the surface.
     @location(0) slice: vec3<u32>,
     // Which pixels are its, from one lot to another, and how far above the place that is seen light falls on it.
     @location(1) look: vec3<f32>,
     // What of it is drawn: from where to where along its line, and up its height vectors, from 0 to 1.
     @location(2) trim: vec4<f32>,
-    // Rows of the transform from the surface to the world, now and in the frame before.
-    @location(3) row_x: vec4<f32>,
-    @location(4) row_y: vec4<f32>,
-    @location(5) row_z: vec4<f32>,
-    @location(6) previous_x: vec4<f32>,
-    @location(7) previous_y: vec4<f32>,
-    @location(8) previous_z: vec4<f32>,
-    // Bevy's flags of a mesh.
-    @location(9) flags: u32,
 }
 
 struct Varying {
@@ -138,11 +130,13 @@ fn slice_level(frame: TexelFrame) -> u32 {
 
 fn place_corner(in: Corner) -> Varying {
     var out: Varying;
-    let turn = transpose(mat3x3(in.row_x.xyz, in.row_y.xyz, in.row_z.xyz));
-    let origin = vec3(in.row_x.w, in.row_y.w, in.row_z.w) - view.world_position;
+    let surface = surfaces[in.slice.z >> 5u];
+    let rows = surface.world_from_local;
+    let turn = transpose(mat3x3(rows[0].xyz, rows[1].xyz, rows[2].xyz));
+    let origin = vec3(rows[0].w, rows[1].w, rows[2].w) - view.world_position;
     let facet = facet_from_eye(in.slice.x, turn, origin);
     let slice = bitcast<i32>(in.slice.y);
-    let count = in.slice.z;
+    let count = 1u << (in.slice.z & 31u);
     // Once round, in the order of a strip of triangles.
     let corner = in.corner ^ (in.corner >> 1u);
     var b: vec3<f32>;
@@ -161,7 +155,7 @@ fn place_corner(in: Corner) -> Varying {
     out.uv = vec2(select(uv.x, uv.y, AXIS == 0u), select(w, uv.y, AXIS == 2u));
     out.lots = in.look.xy;
     out.stand_off = in.look.z;
-    out.flags = in.flags;
+    out.flags = surface.flags.x;
     // Copies of the texture show the same slices; counts are powers of two.
     out.layer = count - 1u + (in.slice.y & (count - 1u));
     let frame = texel_frame(facet, b, w);
@@ -184,7 +178,8 @@ fn place_corner(in: Corner) -> Varying {
 #ifdef MOTION_VECTOR_PREPASS
     // In local space as bent, so that motion vectors leave wind out.
     let local = vec4(transpose(cofactors) * (from_eye - origin) / det, 1.0);
-    out.previous_world_position = vec3(dot(in.previous_x, local), dot(in.previous_y, local), dot(in.previous_z, local));
+    let previous = surface.previous;
+    out.previous_world_position = vec3(dot(previous[0], local), dot(previous[1], local), dot(previous[2], local));
 #endif
 #ifdef TEXEL_NORMALS
     let record = facets[in.slice.x];

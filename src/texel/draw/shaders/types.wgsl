@@ -1,12 +1,20 @@
 #define_import_path bevy_verdure::texel::types
 
-// A surface's facets and a volume's slices, as records.rs and material.rs write them.
+// Facets and surfaces, and a volume's slices, as records.rs and material.rs write them.
 
 // xyz: a vertex, its height vector, its normal; w: its u, its v, nothing.
 struct FacetRecord {
     positions: array<vec4<f32>, 3>,
     heights: array<vec4<f32>, 3>,
     normals: array<vec4<f32>, 3>,
+}
+
+struct SurfaceRecord {
+    // Rows of the transform from the surface to the world, now and in the frame before.
+    world_from_local: array<vec4<f32>, 3>,
+    previous: array<vec4<f32>, 3>,
+    // x: Bevy's flags of a mesh.
+    flags: vec4<u32>,
 }
 
 struct Texels {
@@ -21,11 +29,14 @@ struct Texels {
     diffuse_transmission: f32,
 }
 
+// Those of all surfaces, and where these are in this frame: in place of Bevy's meshes (bindings.rs).
+@group(2) @binding(0) var<storage, read> facets: array<FacetRecord>;
+@group(2) @binding(1) var<storage, read> surfaces: array<SurfaceRecord>;
+
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> texels: Texels;
-@group(#{MATERIAL_BIND_GROUP}) @binding(1) var<storage, read> facets: array<FacetRecord>;
 // Slices across one axis; the sets of 1, 2, 4 and so on slices, one after the other.
-@group(#{MATERIAL_BIND_GROUP}) @binding(2) var color_texture: texture_2d_array<f32>;
-@group(#{MATERIAL_BIND_GROUP}) @binding(3) var normal_texture: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(1) var color_texture: texture_2d_array<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(2) var normal_texture: texture_2d_array<f32>;
 // They repeat along u and v, and not along w; the second looks up one mip level.
-@group(#{MATERIAL_BIND_GROUP}) @binding(4) var slice_sampler: sampler;
-@group(#{MATERIAL_BIND_GROUP}) @binding(5) var level_sampler: sampler;
+@group(#{MATERIAL_BIND_GROUP}) @binding(3) var slice_sampler: sampler;
+@group(#{MATERIAL_BIND_GROUP}) @binding(4) var level_sampler: sampler;
