@@ -47,7 +47,7 @@ impl AsAssetId for SlicedCrown {
 }
 
 /// How a [`SlicedCrown`] is put together. Filled in where a crown has none; may be changed at any time. Crowns of one
-/// slicing and the same settings are drawn together.
+/// slicing, and soon of several of as many pixels, are drawn together where their settings are the same.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq, Hash)]
 pub struct CrownSettings {

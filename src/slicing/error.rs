@@ -118,7 +118,7 @@ pub enum SlicingFileErrorKind {
     /// The text is no slicing in RON.
     #[error("{message}: correct it, or bake the slicing anew")]
     Ron {
-        /// What the parser said.
+        /// What the parser said, or what is missing.
         message: String,
     },
     /// A picture is not one.

@@ -15,7 +15,8 @@ use bevy::render::storage::ShaderBuffer;
 use super::blend::{PART_SLOTS, SLOTS, widest};
 use super::component::{CrownSettings, CrownTint, SlicedCrown};
 use super::compression::SlicingCompression;
-use super::gather::{LEAST_LAYERS, Placed};
+use super::gather::Placed;
+use super::limits::MAX_LAYERS;
 use super::material::SlicedCrownMaterial;
 use super::mesh::crown_mesh;
 use super::near::Nearness;
@@ -44,8 +45,13 @@ pub(crate) struct Shared {
     age: u32,
     /// What it is drawn from.
     set: u32,
-    /// Where it is there.
-    place: usize,
+}
+
+/// A set on its way to the GPU, from which nothing is drawn yet.
+pub(crate) struct Prepared {
+    id: u32,
+    set: CrownSet,
+    shared: Vec<(AssetId<Slicing>, Shared)>,
 }
 
 /// What is on the GPU, by slicing, as long as a crown uses it.
@@ -57,8 +63,8 @@ pub(crate) struct CrownLibrary {
     count: u32,
     /// How often slicings came, went or changed.
     pub(crate) changes: u32,
-    /// Whether crowns are drawn with what is out of date.
-    pub(crate) is_stale: bool,
+    /// Slicings of which crowns are drawn with what is out of date.
+    stale: HashSet<AssetId<Slicing>>,
 }
 
 /// The assets that slicings are turned into, and what they are turned into them for.
@@ -97,26 +103,34 @@ impl CrownAssets<'_> {
     /// Layers that a texture array may have.
     pub(crate) fn most_layers(&self) -> u32 {
         let device = self.device.as_ref();
-        device.map_or(LEAST_LAYERS, |device| {
+        device.map_or(MAX_LAYERS as u32, |device| {
             device.limits().max_texture_array_layers
         })
     }
 }
 
 impl CrownLibrary {
-    /// Draws slicings from a new set, wherever they were drawn from.
-    pub(crate) fn settle(&mut self, source: SetSource, assets: &mut CrownAssets) {
+    /// Makes a set of slicings, with the materials of all settings that crowns of theirs have.
+    pub(crate) fn prepare(
+        &mut self,
+        source: SetSource,
+        wind: Vec3,
+        assets: &mut CrownAssets,
+    ) -> Prepared {
         let id = self.count;
         self.count += 1;
-        self.changes += 1;
-        for (place, (slicing_id, slicing)) in source.slicings.iter().enumerate() {
-            let before = self.shared.remove(slicing_id);
-            if let Some(before) = &before {
-                self.leave(before);
+        let slicings = source.slicings;
+        let mut set = CrownSet::new(source, &mut assets.images, &mut assets.buffers);
+        let mut shared = Vec::new();
+        for (place, (slicing_id, slicing)) in slicings.iter().enumerate() {
+            let before = self.shared.get(slicing_id);
+            let old = before.and_then(|before| self.sets.get(&before.set));
+            for settings in old.into_iter().flat_map(CrownSet::settings) {
+                set.ensure(*settings, wind, &mut assets.materials);
             }
             let shape = slicing.shape();
             let mesh = |slots| assets.meshes.add(crown_mesh(shape, slots, place as u32));
-            let shared = Shared {
+            let own = Shared {
                 meshes: SLOTS_BY_NEARNESS.map(mesh),
                 bounds: bounds(slicing),
                 ball: (shape.centroid, shape.radius),
@@ -124,23 +138,40 @@ impl CrownLibrary {
                 layers: shape.layers() as u32,
                 age: before.map_or(id, |before| before.age),
                 set: id,
-                place,
             };
-            self.shared.insert(*slicing_id, shared);
+            shared.push((*slicing_id, own));
         }
-        let set = CrownSet::new(source, &mut assets.images, &mut assets.buffers);
-        self.sets.insert(id, set);
+        Prepared { id, set, shared }
+    }
+
+    /// Draws slicings from a set, wherever they were drawn from.
+    pub(crate) fn draw_from(&mut self, prepared: Prepared) {
+        self.changes += 1;
+        for (id, shared) in prepared.shared {
+            if let Some(before) = self.shared.insert(id, shared) {
+                self.leave(&before);
+            }
+            self.stale.insert(id);
+        }
+        self.sets.insert(prepared.id, prepared.set);
     }
 
     /// Draws a slicing that is new, or was edited, from a set of its own.
-    fn settle_alone(&mut self, id: AssetId<Slicing>, slicing: &Slicing, assets: &mut CrownAssets) {
+    fn settle_alone(
+        &mut self,
+        id: AssetId<Slicing>,
+        slicing: &Slicing,
+        wind: Vec3,
+        assets: &mut CrownAssets,
+    ) {
         let kind = assets.kind(slicing);
         let source = SetSource {
             kind,
             slicings: &[(id, slicing)],
             data: data(slicing, kind.compressed),
         };
-        self.settle(source, assets);
+        let prepared = self.prepare(source, wind, assets);
+        self.draw_from(prepared);
     }
 
     /// Takes a slicing out of its set, which goes with the last.
@@ -148,8 +179,8 @@ impl CrownLibrary {
         let Some(set) = self.sets.get_mut(&shared.set) else {
             return;
         };
-        set.members[shared.place] = None;
-        if set.members.iter().all(Option::is_none) {
+        set.live -= 1;
+        if set.live == 0 {
             self.sets.remove(&shared.set);
         }
     }
@@ -243,15 +274,15 @@ pub(crate) fn attach(
     unattached: Query<Entity, (Unattached, With<SlicedCrown>)>,
 ) {
     let wind = wind.limited();
-    let is_stale = core::mem::take(&mut library.is_stale);
+    let stale = core::mem::take(&mut library.stale);
     let mut attach = |(entity, crown, settings): (Entity, &SlicedCrown, &CrownSettings)| {
         let id = crown.0.id();
-        // One whose slicing is not there yet, or no more, keeps what it has.
-        let Some(slicing) = slicings.get(id) else {
-            return;
-        };
         if !library.shared.contains_key(&id) {
-            library.settle_alone(id, slicing, &mut assets);
+            // One whose slicing is not there yet keeps what it has.
+            let Some(slicing) = slicings.get(id) else {
+                return;
+            };
+            library.settle_alone(id, slicing, wind, &mut assets);
         }
         library.ensure(id, *settings, wind, &mut assets);
         if let Some(look) = library.look(id, settings, false) {
@@ -260,11 +291,16 @@ pub(crate) fn attach(
             commands.entity(entity).try_insert(drawn);
         }
     };
-    if is_stale {
-        crowns.iter().for_each(&mut attach);
-    } else {
+    if stale.is_empty() {
         crowns.iter_many(&unattached).for_each(&mut attach);
+    } else {
+        let is_meant = |(entity, crown, _): &(Entity, &SlicedCrown, &CrownSettings)| {
+            stale.contains(&crown.0.id()) || unattached.contains(*entity)
+        };
+        crowns.iter().filter(is_meant).for_each(&mut attach);
     }
+    // What has come just now is attached.
+    library.stale.clear();
 }
 
 /// Follows slicings that were edited or reloaded, a device that has taken a lost one's place, and the choice of
@@ -275,6 +311,7 @@ pub(crate) fn follow_slicings(
     mut library: ResMut<CrownLibrary>,
     mut assets: CrownAssets,
     slicings: Res<Assets<Slicing>>,
+    wind: Res<Wind>,
 ) {
     gone.retain(|id| library.shared.contains_key(id));
     let mut edited: HashSet<AssetId<Slicing>> = HashSet::default();
@@ -300,8 +337,7 @@ pub(crate) fn follow_slicings(
         if library.shared.contains_key(id)
             && let Some(slicing) = slicings.get(*id)
         {
-            library.settle_alone(*id, slicing, &mut assets);
-            library.is_stale = true;
+            library.settle_alone(*id, slicing, wind.limited(), &mut assets);
         }
     }
 }

@@ -69,7 +69,7 @@ pub(crate) struct CrownRecord {
     switches: Vec2,
     correction: f32,
     /// Layers of the set before its own.
-    first_layer: u32,
+    layers_before: u32,
     orientation_count: u32,
     sphere: u32,
     vertical: u32,
@@ -80,7 +80,7 @@ pub(crate) struct CrownRecord {
 }
 
 impl CrownRecord {
-    pub(crate) fn new(shape: &SlicingShape, first_layer: u32) -> Self {
+    pub(crate) fn new(shape: &SlicingShape, layers_before: u32) -> Self {
         let level = |i: usize| shape.levels.get(i).copied().unwrap_or(0);
         let switch = |i: usize| shape.switches.get(i).copied().unwrap_or(f32::MAX);
         let mut orientations = [OrientationUniform::default(); MAX_ORIENTATIONS];
@@ -99,7 +99,7 @@ impl CrownRecord {
             levels: UVec4::new(level(0), level(1), level(2), shape.levels.len() as u32),
             switches: Vec2::new(switch(0), switch(1)),
             correction: shape.correction,
-            first_layer,
+            layers_before,
             orientation_count: shape.orientations.len() as u32,
             sphere: shape.sphere.into(),
             vertical: shape.vertical.into(),
@@ -118,9 +118,9 @@ pub struct SlicedCrownMaterial {
     #[uniform(0)]
     pub(crate) set: SetUniform,
     /// A [`CrownRecord`] for each slicing.
-    #[storage(1, read_only)]
+    #[storage(1, read_only, visibility(vertex))]
     pub(crate) crowns: Handle<ShaderBuffer>,
-    #[storage(2, read_only)]
+    #[storage(2, read_only, visibility(vertex))]
     pub(crate) octagons: Handle<ShaderBuffer>,
     #[texture(3, dimension = "2d_array")]
     #[sampler(4)]

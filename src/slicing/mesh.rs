@@ -4,6 +4,8 @@ use bevy::asset::RenderAssetUsages;
 use bevy::math::Vec3;
 use bevy::mesh::{Indices, Mesh, MeshVertexAttribute, PrimitiveTopology, VertexFormat};
 
+use super::blend::PART_SLOTS;
+use super::limits::MAX_SLICES;
 use super::octagon::CORNERS;
 use super::slicing::SlicingShape;
 
@@ -13,6 +15,9 @@ pub(crate) const ATTRIBUTE_CORNER: MeshVertexAttribute = MeshVertexAttribute::ne
     0x5645_5244_5552_4502,
     VertexFormat::Uint32,
 );
+
+// Two levels in as many slots as there may be.
+const _: () = assert!(2 * MAX_SLICES as usize * PART_SLOTS * CORNERS <= 1 << 16);
 
 /// The most slices that are drawn of a crown at once: those of two levels that fade into one another, in all `slots`.
 pub(crate) fn most_slices(shape: &SlicingShape, slots: usize) -> u32 {

@@ -21,9 +21,9 @@
 //! # How crowns are sorted
 //! Blended crowns are items of Bevy's transparent phase rather than of a pass of their own: so they are in right order
 //! with all else that is transparent, in every view. Neighbours in that order that are of one set of slicings and the same
-//! settings are one draw. A set is made of all slicings in use of as many pixels a slice, as far as a texture array has layers, a
-//! moment after the last of them has come (`set.rs`, `gather.rs`), so that a grove of several kinds of trees is one draw; until
-//! then each slicing is a set of its own. Where a device draws nothing indirectly, several are drawn in turns.
+//! settings are one draw. A set is made of slicings in use of as many pixels a slice, all compressed or none, with light from behind
+//! in all or in none, a moment after the last of them has come (`gather.rs`), so that a grove of several kinds of trees is one
+//! draw; until then each slicing is a set of its own (`set.rs`). Where a device draws nothing indirectly, several are drawn in turns.
 //!
 //! # Where this departs from the paper
 //! * Slices of a rank are drawn in the order of their orientations instead of the secondary before the primary one.

@@ -23,9 +23,9 @@ pub(crate) struct SetKind {
 /// Slicings of which the layers follow one another in one pair of texture arrays.
 pub(crate) struct CrownSet {
     pub kind: SetKind,
-    /// The slicing at each place, as long as it is drawn from here.
-    pub members: Vec<Option<AssetId<Slicing>>>,
-    /// Layers of all places.
+    /// How many slicings are drawn from here.
+    pub live: usize,
+    /// Layers, of those that have left too.
     pub layers: u32,
     color: Handle<Image>,
     normal: Handle<Image>,
@@ -53,14 +53,13 @@ impl CrownSet {
             slicings,
             data,
         } = source;
-        let members = slicings.iter().map(|(id, _)| Some(*id)).collect();
         let slicings: Vec<&Slicing> = slicings.iter().map(|(_, slicing)| *slicing).collect();
         let layers = slicings.iter().map(|slicing| slicing.shape().layers());
         let layers = layers.sum::<usize>() as u32;
         let [color, normal] = images(data, kind.pixels, layers, kind.compressed);
         Self {
             kind,
-            members,
+            live: slicings.len(),
             layers,
             color: image_assets.add(color),
             normal: image_assets.add(normal),
@@ -76,6 +75,11 @@ impl CrownSet {
         settings: &CrownSettings,
     ) -> Option<&[Handle<SlicedCrownMaterial>; 2]> {
         self.materials.get(settings)
+    }
+
+    /// The settings that there are materials for.
+    pub(crate) fn settings(&self) -> impl Iterator<Item = &CrownSettings> {
+        self.materials.keys()
     }
 
     pub(crate) fn each_material(

@@ -33,12 +33,12 @@ pub(crate) fn octagons(slicings: &[&Slicing]) -> ShaderBuffer {
 
 /// The shapes of slicings of which the layers follow one another.
 pub(crate) fn records(slicings: &[&Slicing]) -> ShaderBuffer {
-    let mut first_layer = 0;
+    let mut layers_before = 0;
     let records: Vec<CrownRecord> = slicings
         .iter()
         .map(|slicing| {
-            let record = CrownRecord::new(slicing.shape(), first_layer);
-            first_layer += slicing.shape().layers() as u32;
+            let record = CrownRecord::new(slicing.shape(), layers_before);
+            layers_before += slicing.shape().layers() as u32;
             record
         })
         .collect();
@@ -83,15 +83,19 @@ pub(crate) fn data(slicing: &Slicing, compressed: bool) -> [Vec<u8>; 2] {
     [colors.concat(), normals.concat()]
 }
 
-/// The same of slicings that follow one another, worked out one by one, behind the frames.
-pub(crate) fn data_behind(slicings: &[Slicing], compressed: bool) -> [Vec<u8>; 2] {
-    let mut data = [Vec::new(), Vec::new()];
-    for slicing in slicings {
+/// The same of slicings that follow one another, worked out layer by layer, behind the frames.
+pub(crate) async fn data_behind(slicings: Vec<Slicing>, compressed: bool) -> [Vec<u8>; 2] {
+    let bytes = slicings.iter().map(|slicing| slicing.gpu_bytes(compressed));
+    let half = bytes.sum::<u64>() as usize / 2;
+    let mut data = [(); 2].map(|()| Vec::with_capacity(half));
+    for slicing in &slicings {
         for layer in 0..slicing.shape().layers() {
             let layer = layer_data(slicing, layer, compressed);
             for (all, bytes) in data.iter_mut().zip(&layer) {
                 all.extend_from_slice(bytes);
             }
+            // Pipelines are compiled, and pictures read back, by the same few threads.
+            bevy::tasks::futures_lite::future::yield_now().await;
         }
     }
     data
@@ -113,6 +117,8 @@ fn layer_data(slicing: &Slicing, layer: usize, compressed: bool) -> [Vec<u8>; 2]
 
 #[cfg(test)]
 mod tests {
+    use bevy::tasks::block_on;
+
     use super::*;
     use crate::slicing::tests::leaves;
     use crate::texture_compression::decompress;
@@ -135,7 +141,7 @@ mod tests {
     fn slicings_that_follow_one_another_are_the_bytes_of_each() {
         let slicings = [leaves(16), leaves(16)];
         for compressed in [false, true] {
-            let together = data_behind(&slicings, compressed);
+            let together = block_on(data_behind(slicings.to_vec(), compressed));
             let alone = data(&slicings[0], compressed);
             assert_eq!(together, alone.map(|bytes| bytes.repeat(2)), "{compressed}");
         }

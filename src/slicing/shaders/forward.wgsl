@@ -60,7 +60,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let facing = slice_facing(in);
     let leaf = Leaf(
         in.world_position, facing.normal, 0.0, facing.occlusion, transmission_of(in.tint.w), 0.0,
-        in.position.xy, in.layer, input.flags);
+        in.position.xy, in.own_layer, input.flags);
     var color = vec4(simple_light(leaf, seen.rgb), seen.a);
 #else
     var color = seen;

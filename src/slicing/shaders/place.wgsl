@@ -69,6 +69,8 @@ struct Varying {
     // Where the direction from a part to the eye is among orientations.
     @location(14) turn: vec2<f32>,
 #endif
+    // The layer among those of its slicing, whatever set that is in.
+    @location(10) @interpolate(flat) own_layer: u32,
     // In linear light; w: the share of the sun's that comes through from behind.
     @location(5) @interpolate(flat) tint: vec4<f32>,
     @location(6) world_position: vec3<f32>,
@@ -176,7 +178,7 @@ fn place_corner(in: Corner) -> Varying {
     let faces = dot(o.direction, direction) >= 0.0;
     let count = crowns[which].levels[slice.level];
     let own_layer = first_layer(slice.level, slice.orientation) + slice.index;
-    let layer = crowns[which].first_layer + own_layer;
+    let layer = crowns[which].layers_before + own_layer;
     let pair = octagons[layer * 4u + (in.corner & 7u) / 2u];
 #ifdef CROWN_FRAMES
     // The whole quad, so that its frame shows.
@@ -244,6 +246,7 @@ fn place_corner(in: Corner) -> Varying {
     let ray = normalize(eye * crowns[which].radius - (local - crowns[which].centroid));
     out.turn = part_turn(slice.orientation, part_direction(direction, ray, differ));
 #endif
+    out.own_layer = own_layer;
     out.tint = vec4(tint(tag), crowns[which].diffuse_transmission);
     out.world_position = from_eye + view.world_position;
     let front = select(-o.direction, o.direction, faces);

@@ -19,7 +19,7 @@ struct Crown {
     switches: vec2<f32>,
     correction: f32,
     // Layers of the set before its own.
-    first_layer: u32,
+    layers_before: u32,
     orientation_count: u32,
     sphere: u32,
     vertical: u32,

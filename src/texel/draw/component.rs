@@ -167,6 +167,30 @@ impl TexelSettings {
         (most / count).clamp(1, 1 << inner.ilog2())
     }
 
+    /// The same with 0 in place of what is no number, as it is taken for: so it is equal to itself.
+    pub(crate) fn without_nan(mut self) -> Self {
+        let numbers = [
+            &mut self.roughness,
+            &mut self.reflectance,
+            &mut self.diffuse_transmission,
+            &mut self.flexibility,
+        ];
+        let qualities = [&mut self.quality, &mut self.shadows];
+        let of_qualities = qualities.into_iter().flat_map(|quality| {
+            [
+                &mut quality.depth,
+                &mut quality.pixels,
+                &mut quality.least_angle,
+            ]
+        });
+        for number in numbers.into_iter().chain(of_qualities) {
+            if number.is_nan() {
+                *number = 0.0;
+            }
+        }
+        self
+    }
+
     /// [`flexibility`](Self::flexibility), of which what is no finite number is none.
     pub(crate) fn limited_flexibility(&self) -> f32 {
         if self.flexibility.is_finite() {

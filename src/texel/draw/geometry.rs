@@ -26,7 +26,7 @@ pub(crate) struct Geometry {
     tallest: f32,
     /// The most slices a texel that may be shown, of volumes that have so many; none if these are too many.
     limits: Vec<(UVec3, Option<UVec3>)>,
-    pub records: Vec<FacetRecord>,
+    pub records: Arc<[FacetRecord]>,
     /// Records that were changed in this frame.
     pub changed: Vec<Range<usize>>,
     /// Whether it came to its room in this frame.
@@ -85,7 +85,7 @@ impl Geometry {
             bounds: bounds(&found.facets),
             tallest: tallest(&found.facets),
             limits: Vec::new(),
-            records: records(found),
+            records: records(found).into(),
             changed: Vec::new(),
             is_new: true,
         }
@@ -93,7 +93,7 @@ impl Geometry {
 
     /// Follows facets that may have changed.
     pub(crate) fn renew(&mut self, found: &SurfaceFacets, space: &FacetSpace, most: usize) {
-        let before = core::mem::replace(&mut self.records, records(found));
+        let before = core::mem::replace(&mut self.records, records(found).into());
         if self.records == before {
             return;
         }

@@ -106,6 +106,8 @@ pub(crate) struct TexelLibrary {
     geometries: HashMap<GeometryKey, Option<Geometry>>,
     /// Where facets are on the GPU.
     pub space: FacetSpace,
+    /// Meshes that were taken away since facets were made of them.
+    gone_meshes: HashSet<AssetId<Mesh>>,
     /// Counts frames.
     pub frame: u64,
     materials: HashMap<MaterialKey, [Handle<TexelMaterial>; 6]>,
@@ -428,10 +430,22 @@ impl TexelLibrary {
             .retain(|key, geometry| geometry.is_some() || key.own != Some(owner));
     }
 
-    /// Forgets what was told of a mesh that is gone.
-    pub(crate) fn forget_mesh(&mut self, id: AssetId<Mesh>) {
+    /// Notes that a mesh was taken away: what was told of it is forgotten, and what was made of it stays as long as a surface
+    /// shows it.
+    pub(crate) fn lose_mesh(&mut self, id: AssetId<Mesh>) {
         self.geometries
             .retain(|key, geometry| geometry.is_some() || key.mesh != id);
+        if self.geometries.keys().any(|key| key.mesh == id) {
+            self.gone_meshes.insert(id);
+        }
+    }
+
+    /// Forgets the facets of a mesh that was taken away, for there is one in its place.
+    pub(crate) fn regain_mesh(&mut self, id: AssetId<Mesh>) {
+        if self.gone_meshes.remove(&id) {
+            self.geometries.retain(|key, _| key.mesh != id);
+            self.is_stale = true;
+        }
     }
 
     /// Forgets everything, on a device that has taken a lost one's place and has nothing of what was there.
@@ -453,6 +467,9 @@ impl TexelLibrary {
             .retain(|key, geometry| geometries.contains(key) || geometry.is_none());
         let volumes: HashSet<_> = materials.iter().map(|key| key.volume).collect();
         self.volumes.retain(|key, _| volumes.contains(key));
+        let geometries = &self.geometries;
+        self.gone_meshes
+            .retain(|id| geometries.keys().any(|key| key.mesh == *id));
     }
 }
 

@@ -6,8 +6,9 @@
 //!    pairs of texture arrays (`images.rs`). What is alike is shared (`geometry.rs`, `library.rs`). Children of the surface
 //!    have the materials (`systems.rs`).
 //! 2. In each frame (`extract.rs`), and for each view, those of lights too, slices are [chosen](super::choose_fading) for every
-//!    facet, and listed, near ones first: by the CPU, in parallel, without allocating (`view.rs`, `source.rs`, `jobs.rs`). So shadow maps
-//!    have the slices that their light needs, at a quality of their own ([`TexelSettings::shadows`]).
+//!    facet, and listed, near ones first among at most 8,192 facets: by the CPU, in parallel, without allocating (`view.rs`,
+//!    `source.rs`, `jobs.rs`). So shadow maps have the slices that their light needs, at a quality of their own
+//!    ([`TexelSettings::shadows`]).
 //!    Of each slice only the box that shows anything is drawn. Lists that would come out as they are already are kept.
 //! 3. Surfaces of one volume and the same looks are a group (`groups.rs`). Their lists are joined, near surfaces first
 //!    (`lists.rs`), and drawn at once in Bevy's phases in place of meshes (`commands.rs`, `bindings.rs`), when the first of their
@@ -165,18 +166,19 @@ impl Plugin for TexelPlugin {
             .init_resource::<lists::SliceLists>()
             .init_resource::<stats::TexelStats>()
             .init_resource::<upload::FacetBuffers>()
+            .init_resource::<upload::FacetWrites>()
             .add_render_command::<Opaque3d, commands::DrawTexelDepth>()
             .add_render_command::<AlphaMask3d, commands::DrawTexels>()
             .add_render_command::<AlphaMask3dPrepass, commands::DrawTexelsBefore>()
             .add_render_command::<Shadow, commands::DrawTexelsBefore>()
-            .add_systems(ExtractSchedule, (extract::extract, upload::upload))
+            .add_systems(ExtractSchedule, (extract::extract, upload::note))
             .add_systems(
                 Render,
                 (
                     commands::take_over_materials
                         .in_set(RenderSystems::PrepareAssets)
                         .after(prepare_erased_assets::<MeshMaterial3d<TexelMaterial>>),
-                    lists::list_slices.in_set(RenderSystems::PrepareResources),
+                    (upload::upload, lists::list_slices).in_set(RenderSystems::PrepareResources),
                     bindings::prepare_bind_groups.in_set(RenderSystems::PrepareBindGroups),
                 ),
             );

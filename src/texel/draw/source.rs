@@ -56,7 +56,7 @@ impl SliceSource {
             room: geometry.room.clone(),
             bounds,
             volume,
-            settings,
+            settings: settings.without_nan(),
             slices,
             material,
         }

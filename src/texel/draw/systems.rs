@@ -101,7 +101,8 @@ pub(crate) fn attach(
     mut slices: Query<Slices, (With<TexelSlices>, Without<TexelSurface>)>,
 ) {
     let device = assets.device.as_ref();
-    if device.is_some_and(|device| device.is_changed()) {
+    let is_lost = device.is_some_and(|device| device.is_changed());
+    if is_lost {
         library.clear();
     }
     let wind = wind.limited();
@@ -139,8 +140,15 @@ pub(crate) fn attach(
         let (geometry, volume, materials) = match found {
             Drawn::NotYet => {
                 // One that is not drawn at all is looked at anyway.
-                if drawn.is_some() {
-                    looked.waiting.push(entity);
+                if let Some(drawn) = drawn {
+                    if is_lost {
+                        // What it was drawn with is others' now.
+                        drawn.despawn(&mut commands);
+                        let mut entity = commands.entity(entity);
+                        entity.try_remove::<(TexelDrawn, SliceSource)>();
+                    } else {
+                        looked.waiting.push(entity);
+                    }
                 }
                 continue;
             }
@@ -211,14 +219,14 @@ pub(crate) fn follow_assets(
     }
     let mut seen = HashSet::<AssetId<Mesh>>::default();
     for event in edited_meshes.read() {
-        if let AssetEvent::Removed { id } = event {
-            library.forget_mesh(*id);
-        }
-        if let AssetEvent::Modified { id } = event
-            && seen.insert(*id)
-        {
+        match event {
+            AssetEvent::Removed { id } => library.lose_mesh(*id),
+            AssetEvent::Added { id } => library.regain_mesh(*id),
             // Live surfaces are followed anyway, but not those that share their mesh.
-            library.follow_mesh(*id, |owner| live.contains(owner), &assets);
+            AssetEvent::Modified { id } if seen.insert(*id) => {
+                library.follow_mesh(*id, |owner| live.contains(owner), &assets);
+            }
+            _ => {}
         }
     }
 }

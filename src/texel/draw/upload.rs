@@ -1,5 +1,8 @@
 //! The buffers of facets in the render world. What of facets is new or has changed is written to them, and no more.
 
+use core::ops::Range;
+use std::sync::Arc;
+
 use bevy::prelude::*;
 use bevy::render::Extract;
 use bevy::render::render_resource::{
@@ -7,10 +10,10 @@ use bevy::render::render_resource::{
 };
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 
-use super::geometry::Geometry;
 use super::library::TexelLibrary;
 use super::limit::DeviceLimits;
 use super::records::FacetRecord;
+use super::room::FacetRoom;
 use super::stats::TexelStats;
 
 /// Bytes of a facet.
@@ -19,12 +22,31 @@ const FACET: usize = size_of::<FacetRecord>();
 /// Facets that a buffer has room for at least.
 const LEAST_ROOM: usize = 256;
 
+/// Facets of a room that are to be written.
+struct Write {
+    room: Arc<FacetRoom>,
+    records: Arc<[FacetRecord]>,
+    range: Range<usize>,
+}
+
+/// What of facets is to be written in this frame, as the main world has told it.
+#[derive(Resource, Default)]
+pub(crate) struct FacetWrites {
+    /// How many facets each buffer has to hold.
+    ends: Vec<usize>,
+    writes: Vec<Write>,
+    /// Bytes of those that changed.
+    changed_bytes: usize,
+    /// The library's frame that was noted last.
+    frame: u64,
+    /// Whether nobody has come to write it, as while a device is lost.
+    is_left: bool,
+}
+
 /// The facets of all surfaces, in as few buffers as hold them.
 #[derive(Resource, Default)]
 pub(crate) struct FacetBuffers {
     pools: Vec<Buffer>,
-    /// The library's frame that was written last.
-    frame: u64,
 }
 
 impl FacetBuffers {
@@ -64,17 +86,11 @@ impl FacetBuffers {
         }
     }
 
-    /// Writes a run of a surface's facets.
-    fn write(
-        &self,
-        geometry: &Geometry,
-        first: usize,
-        records: &[FacetRecord],
-        queue: &RenderQueue,
-    ) {
-        let room = &geometry.room;
-        let start = ((room.range.start + first) * FACET) as u64;
-        queue.write_buffer(&self.pools[room.pool], start, bytemuck::cast_slice(records));
+    fn write(&self, write: &Write, queue: &RenderQueue) {
+        let room = &write.room;
+        let start = ((room.range.start + write.range.start) * FACET) as u64;
+        let bytes = bytemuck::cast_slice(&write.records[write.range.clone()]);
+        queue.write_buffer(&self.pools[room.pool], start, bytes);
     }
 }
 
@@ -85,40 +101,57 @@ fn capacity(now: usize, facets: usize) -> Option<usize> {
     (facets > now || now == 0 || now > 4 * fitting).then_some(fitting)
 }
 
-/// Writes facets that are new or have changed.
+/// Notes the facets that are new or have changed. They are written when there is a device to write to.
+pub(crate) fn note(library: Extract<Option<Res<TexelLibrary>>>, mut noted: ResMut<FacetWrites>) {
+    let Some(library) = &*library else {
+        return;
+    };
+    let noted = &mut *noted;
+    // What changed in a frame that the render world has missed is not told again.
+    let is_behind = library.frame != noted.frame + 1 || noted.is_left;
+    (noted.frame, noted.is_left, noted.changed_bytes) = (library.frame, true, 0);
+    noted.ends.clear();
+    library.space.for_each_pool(|_, end| noted.ends.push(end));
+    noted.writes.clear();
+    for geometry in library.geometries() {
+        let write = |range| Write {
+            room: geometry.room.clone(),
+            records: geometry.records.clone(),
+            range,
+        };
+        if geometry.is_new || is_behind {
+            noted.writes.push(write(0..geometry.records.len()));
+            continue;
+        }
+        for range in &geometry.changed {
+            noted.changed_bytes += range.len() * FACET;
+            noted.writes.push(write(range.clone()));
+        }
+    }
+}
+
+/// Writes what is noted.
 pub(crate) fn upload(
-    library: Extract<Option<Res<TexelLibrary>>>,
+    mut noted: ResMut<FacetWrites>,
     mut buffers: ResMut<FacetBuffers>,
     device: Res<RenderDevice>,
     queue: Res<RenderQueue>,
     mut stats: ResMut<TexelStats>,
 ) {
-    stats.uploaded_bytes = 0;
-    let Some(library) = &*library else {
-        return;
-    };
     if device.is_changed() {
         // Buffers of a lost device are lost.
         *buffers = FacetBuffers::default();
     }
     let most = DeviceLimits::of(Some(&device)).facets;
-    library.space.for_each_pool(|pool, facets| {
-        buffers.fit(pool, facets, most, &device, &queue);
-    });
-    // What changed in a frame that the render world has missed is not told again.
-    let is_behind = library.frame != buffers.frame + 1;
-    buffers.frame = library.frame;
-    for geometry in library.geometries() {
-        if geometry.is_new || is_behind {
-            buffers.write(geometry, 0, &geometry.records, &queue);
-            continue;
-        }
-        for range in &geometry.changed {
-            let records = &geometry.records[range.clone()];
-            buffers.write(geometry, range.start, records, &queue);
-            stats.uploaded_bytes += size_of_val(records);
-        }
+    buffers.pools.truncate(noted.ends.len());
+    for (pool, end) in noted.ends.iter().enumerate() {
+        buffers.fit(pool, *end, most, &device, &queue);
     }
+    for write in &noted.writes {
+        buffers.write(write, &queue);
+    }
+    noted.is_left = false;
+    stats.uploaded_bytes = noted.changed_bytes;
 }
 
 #[cfg(test)]

@@ -4,9 +4,12 @@ use bevy::core_pipeline::core_3d::Transparent3d;
 use bevy::prelude::*;
 use bevy::render::RenderApp;
 use bevy::render::render_phase::{PhaseItem, ViewSortedRenderPhases};
+use bevy::render::storage::ShaderBuffer;
 use bevy_verdure::lab::{Pixels, Studio};
 use bevy_verdure::prelude::*;
-use bevy_verdure::slicing::{SlicedCrownMaterial, SlicingShape};
+use bevy_verdure::slicing::{SlicedCrownMaterial, SlicingCompression, SlicingShape};
+
+use crate::recovery::{lose_device, recovering_studio};
 
 use super::{CROWN, UNLIT, eye, shot};
 
@@ -38,6 +41,16 @@ fn plainer() -> Slicing {
 /// Crowns by turns of as many slicings, in a row that is seen along, so that they are sorted by turns too.
 fn row(slicings: &[Slicing]) -> (Studio, Vec<Entity>, Vec<Handle<Slicing>>) {
     let mut studio = Studio::default();
+    let (crowns, handles) = plant_row(&mut studio, slicings, UNLIT);
+    (studio, crowns, handles)
+}
+
+/// The same in a studio, with some settings.
+fn plant_row(
+    studio: &mut Studio,
+    slicings: &[Slicing],
+    settings: CrownSettings,
+) -> (Vec<Entity>, Vec<Handle<Slicing>>) {
     let mut assets = studio.world().resource_mut::<Assets<Slicing>>();
     let handles: Vec<_> = slicings
         .iter()
@@ -46,10 +59,9 @@ fn row(slicings: &[Slicing]) -> (Studio, Vec<Entity>, Vec<Handle<Slicing>>) {
     let crowns = (0..6).map(|i| {
         let place = Transform::from_xyz(3.0 * (i % 2) as f32, 0.0, -9.0 * i as f32);
         let crown = SlicedCrown(handles[i % handles.len()].clone());
-        studio.world().spawn((crown, UNLIT, place)).id()
+        studio.world().spawn((crown, settings, place)).id()
     });
-    let crowns = crowns.collect();
-    (studio, crowns, handles)
+    (crowns.collect(), handles)
 }
 
 fn picture(studio: &mut Studio) -> Pixels {
@@ -123,13 +135,88 @@ fn no_frame_is_without_its_crowns_while_sets_are_made() {
         |studio: &mut Studio| material(studio, crowns[0]) == material(studio, crowns[1]);
     for _ in 0..2000 {
         let was_gathered = is_gathered(&mut studio);
-        // Whatever frame the picture is of, it has all crowns.
-        assert_eq!(picture(&mut studio).rgb_bytes(), apart.rgb_bytes());
+        studio.headless.step();
+        assert_eq!(draws(&mut studio).1, 6, "each frame has all crowns");
         if was_gathered {
+            assert_eq!(picture(&mut studio).rgb_bytes(), apart.rgb_bytes());
             return;
         }
+        std::thread::sleep(core::time::Duration::from_millis(1));
     }
     panic!("slicings are not drawn together");
+}
+
+#[test]
+fn crowns_are_lit_and_shadowed_as_before_when_they_are_gathered() {
+    let mut studio = Studio::default();
+    let slicings = [CROWN.clone(), plainer()];
+    let (crowns, _) = plant_row(&mut studio, &slicings, CrownSettings::default());
+    // Bevy's own cascades, which overlap.
+    studio.world().spawn((
+        DirectionalLight {
+            shadow_maps_enabled: true,
+            ..default()
+        },
+        Transform::default().looking_to(Vec3::new(0.3, -1.0, -0.6), Vec3::Y),
+    ));
+    studio.headless.step();
+    let apart = picture(&mut studio);
+    gather(&mut studio, [crowns[0], crowns[1]]);
+    assert_eq!(picture(&mut studio).rgb_bytes(), apart.rgb_bytes());
+}
+
+#[test]
+fn gathered_crowns_come_back_after_their_device_is_lost_and_when_they_are_compressed() {
+    let mut studio = recovering_studio();
+    let (crowns, _) = plant_row(&mut studio, &[CROWN.clone(), plainer()], UNLIT);
+    let pair = [crowns[0], crowns[1]];
+    studio.headless.step();
+    let before = picture(&mut studio);
+    gather(&mut studio, pair);
+    lose_device(&mut studio);
+    assert_eq!(picture(&mut studio).rgb_bytes(), before.rgb_bytes());
+    gather(&mut studio, pair);
+    for compression in [
+        SlicingCompression::WhereSupported,
+        SlicingCompression::Never,
+    ] {
+        studio.world().insert_resource(compression);
+        studio.headless.step();
+        let apart = picture(&mut studio);
+        gather(&mut studio, pair);
+        assert_eq!(
+            picture(&mut studio).rgb_bytes(),
+            apart.rgb_bytes(),
+            "{compression:?}"
+        );
+    }
+    assert_eq!(picture(&mut studio).rgb_bytes(), before.rgb_bytes());
+}
+
+#[test]
+fn what_crowns_were_drawn_with_is_let_go_of_when_they_are_gathered() {
+    let (mut studio, crowns, _) = row(&[CROWN.clone(), plainer()]);
+    let counts = |studio: &mut Studio| {
+        let world = studio.world();
+        [
+            world.resource::<Assets<Image>>().len(),
+            world.resource::<Assets<ShaderBuffer>>().len(),
+            world.resource::<Assets<SlicedCrownMaterial>>().len(),
+        ]
+    };
+    studio.headless.step();
+    picture(&mut studio);
+    let apart = counts(&mut studio);
+    gather(&mut studio, [crowns[0], crowns[1]]);
+    picture(&mut studio);
+    let together = counts(&mut studio);
+    // Two images, two buffers and two materials, for near and for far, that each of two had.
+    assert_eq!(together, apart.map(|count| count - 2));
+    for crown in crowns {
+        studio.world().despawn(crown);
+    }
+    picture(&mut studio);
+    assert_eq!(counts(&mut studio), together.map(|count| count - 2));
 }
 
 #[test]
@@ -163,7 +250,7 @@ fn crowns_whose_slicing_is_removed_stay_while_others_are_gathered() {
     studio.headless.step();
     let before = picture(&mut studio);
     let mut assets = studio.world().resource_mut::<Assets<Slicing>>();
-    assets.remove(slicings[1].id());
+    assert!(assets.remove(slicings[1].id()).is_some());
     gather(&mut studio, [crowns[0], crowns[2]]);
     assert_ne!(
         material(&mut studio, crowns[0]),

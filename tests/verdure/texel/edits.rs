@@ -1,4 +1,4 @@
-//! Volumes that are edited, taken away and put back while a surface shows them, and surfaces that go.
+//! Volumes and meshes that are edited, taken away and put back while a surface shows them, and surfaces that go.
 
 use bevy::prelude::*;
 use bevy_verdure::lab::Studio;
@@ -6,7 +6,7 @@ use bevy_verdure::prelude::*;
 use bevy_verdure::texel::{TexelMaterial, TexelSlices};
 
 use super::turns::ball;
-use super::{BACKGROUND, LOLLY, cover_default, shot, unlit};
+use super::{BACKGROUND, LOLLY, Square, cover_default, shot, unlit};
 
 fn lolly() -> TexelVolume {
     LOLLY.clone().into()
@@ -90,6 +90,37 @@ fn a_volume_that_is_taken_away_stays_on_screen_until_another_is_in_its_place() {
         put_back(volumes, ball());
     });
     assert!(seen(&mut studio) == expected, "exchanged in one frame");
+}
+
+#[test]
+fn a_mesh_that_is_taken_away_stays_on_screen_until_another_is_in_its_place() {
+    let other = || {
+        let mut square = Square::default();
+        square.heights = [Vec3::new(0.2, 0.6, 0.0); 4];
+        square.mesh()
+    };
+    let mesh_of = |studio: &mut Studio, surface| {
+        let mesh = studio.world().get::<Mesh3d>(surface);
+        mesh.expect("surfaces have meshes").0.clone()
+    };
+    let (mut fresh, surface, _) = covered_with(lolly());
+    let mesh = fresh.world().resource_mut::<Assets<Mesh>>().add(other());
+    fresh.world().entity_mut(surface).insert(Mesh3d(mesh));
+    let expected = seen(&mut fresh);
+
+    let (mut studio, surface, _) = covered_with(lolly());
+    let before = seen(&mut studio);
+    assert!(before != expected);
+    let mesh = mesh_of(&mut studio, surface);
+    let taken = studio.world().resource_mut::<Assets<Mesh>>().remove(&mesh);
+    assert!(seen(&mut studio) == before, "taken away");
+    for (put_back, expected) in [(Some(other()), expected), (taken, before)] {
+        let mut meshes = studio.world().resource_mut::<Assets<Mesh>>();
+        meshes.remove(&mesh);
+        let replaced = meshes.insert(&mesh, put_back.expect("it was there"));
+        replaced.expect("its handle is in use");
+        assert!(seen(&mut studio) == expected, "put back");
+    }
 }
 
 #[test]
