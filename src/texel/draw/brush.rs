@@ -113,7 +113,7 @@ impl StrokedTexels {
 const MOST_STRENGTH: f32 = 0.99;
 
 /// What [`Stroke::felt`] is where the middle of a brush goes over a place.
-const WHOLE: f32 = 16.0 / 15.0;
+const FELT_MOST: f32 = 16.0 / 15.0;
 
 /// The way of a brush in a frame, in world space.
 #[derive(Clone, Copy, Debug)]
@@ -135,7 +135,7 @@ impl Stroke {
             from,
             to,
             radius: brush.radius,
-            rate: -(1.0 - strength).ln() / WHOLE,
+            rate: -(1.0 - strength).ln() / FELT_MOST,
         })
     }
 
@@ -147,6 +147,11 @@ impl Stroke {
     /// Whether a place is within the radius, somewhere on the way.
     pub(crate) fn reaches(&self, place: Vec3) -> bool {
         place.distance_squared(self.nearest(place)) < self.radius * self.radius
+    }
+
+    /// Whether a place within so far from another may be within the radius, somewhere on the way.
+    pub(crate) fn comes_near(&self, place: Vec3, within: f32) -> bool {
+        place.distance(self.nearest(place)) <= self.radius + within
     }
 
     /// Where the way is nearest to a place.
@@ -180,8 +185,9 @@ impl Stroke {
         let outwards = (place - self.nearest(place)) / self.radius;
         let lean = along + outwards * pressed;
         let lean = lean - normal * lean.dot(normal);
-        let left = (-self.rate * self.felt(place) * lean.length()).exp();
-        comb(height, normal, lean, 1.0 - left)
+        // Of what is left to be laid down, e to this is left then; next to 1 that would round.
+        let exponent = -self.rate * self.felt(place) * lean.length();
+        comb(height, normal, lean, -exponent.exp_m1())
     }
 }
 

@@ -2,11 +2,10 @@
 
 use bevy::mesh::VertexAttributeValues;
 use bevy::prelude::*;
-use bevy::render::RenderApp;
 use bevy_verdure::lab::{Lens, Shot, Studio};
 use bevy_verdure::prelude::*;
-use bevy_verdure::texel::TexelStats;
 
+use super::uploads::stats;
 use super::{BACKGROUND, SIZE, lollies, unlit};
 
 /// Bytes of the lawn's facets.
@@ -38,13 +37,6 @@ fn lawn(studio: &mut Studio, recovery: f32) -> Entity {
     world.spawn((Mesh3d(mesh), surface, unlit(), stroked)).id()
 }
 
-/// Bytes that are written in a frame.
-fn written(studio: &mut Studio) -> usize {
-    studio.headless.step();
-    let render = studio.headless.app().sub_app(RenderApp).world();
-    render.resource::<TexelStats>().uploaded_bytes
-}
-
 /// From aslant above; what is to the right of the middle is on the right.
 fn picture(studio: &mut Studio) -> Vec<u8> {
     studio.headless.step();
@@ -61,10 +53,10 @@ fn picture(studio: &mut Studio) -> Vec<u8> {
 fn stroke(studio: &mut Studio, brush: TexelBrush) -> (Entity, usize) {
     let at = |step: u8| Transform::from_xyz(-0.5, 0.05, 0.6 - 0.12 * f32::from(step));
     let hand = studio.world().spawn((brush, at(0))).id();
-    let mut last = written(studio);
+    let mut last = stats(studio).uploaded_bytes;
     for step in 1..=10 {
         studio.world().entity_mut(hand).insert(at(step));
-        last = written(studio);
+        last = stats(studio).uploaded_bytes;
     }
     (hand, last)
 }
@@ -87,7 +79,7 @@ fn a_brush_combs_what_it_goes_over_and_nothing_else() {
 
     let (_, last) = stroke(&mut studio, HAND);
     assert!(last > 0 && last < ALL / 2, "{last}");
-    assert_eq!(written(&mut studio), 0, "it stands still");
+    assert_eq!(stats(&mut studio).uploaded_bytes, 0, "it stands still");
     let combed = picture(&mut studio);
     let pixels = before.chunks_exact(3).zip(combed.chunks_exact(3));
     let changed = (0..)
@@ -110,11 +102,11 @@ fn what_is_combed_rises_again_to_where_it_was() {
     let (hand, _) = stroke(&mut studio, HAND);
     assert!(picture(&mut studio) != before);
     studio.world().despawn(hand);
-    assert!(written(&mut studio) > 0);
+    assert!(stats(&mut studio).uploaded_bytes > 0);
     for _ in 0..40 {
         studio.headless.step();
     }
-    assert_eq!(written(&mut studio), 0);
+    assert_eq!(stats(&mut studio).uploaded_bytes, 0);
     assert!(picture(&mut studio) == before);
 }
 
@@ -181,19 +173,95 @@ fn a_mesh_of_other_vertices_is_stroked_anew() {
     stroke(&mut studio, HAND);
     let combed = heights(&mut studio, surface).expect("it had some before");
     assert!(combed.len() == 9 * 9 && combed != upright);
-    // One that grows takes along what was combed.
-    let mut larger = ground(8);
-    if let Some(VertexAttributeValues::Float32x3(positions)) =
-        larger.attribute_mut(Mesh::ATTRIBUTE_POSITION)
-    {
-        for at in positions {
-            at[0] *= 1.1;
+    // One that is turned takes along what was combed.
+    let turn = Quat::from_rotation_x(0.5);
+    let mut turned = ground(8);
+    for attribute in [Mesh::ATTRIBUTE_POSITION, Mesh::ATTRIBUTE_NORMAL] {
+        if let Some(VertexAttributeValues::Float32x3(vectors)) = turned.attribute_mut(attribute) {
+            for vector in vectors {
+                *vector = (turn * Vec3::from(*vector)).to_array();
+            }
         }
     }
     let mut meshes = studio.world().resource_mut::<Assets<Mesh>>();
-    *meshes.get_mut(&mesh).unwrap() = larger;
+    *meshes.get_mut(&mesh).unwrap() = turned;
     for _ in 0..3 {
         studio.headless.step();
     }
-    assert_eq!(heights(&mut studio, surface), Some(combed));
+    let along = heights(&mut studio, surface).expect("it had some before");
+    assert_eq!(along.len(), combed.len());
+    for (along, combed) in along.iter().zip(&combed) {
+        let turned = turn * *combed;
+        assert!(along.distance(turned) < 1e-5, "{along} {turned}");
+    }
+}
+
+/// Turned and larger, so that there and back rounds.
+fn aslant() -> Transform {
+    Transform::from_rotation(Quat::from_rotation_y(0.7)).with_scale(Vec3::splat(1.3))
+}
+
+#[test]
+fn what_is_under_a_still_brush_stays_bit_by_bit() {
+    let mut studio = Studio::default();
+    let surface = lawn(&mut studio, f32::INFINITY);
+    let lean = Vec3::new(0.05, 0.2, 0.03);
+    let own = TexelHeights(vec![lean; 17 * 17]);
+    let place = aslant();
+    studio.world().entity_mut(surface).insert((own, place));
+    let still = Vec3::new(0.6, 0.05, 0.0);
+    let at = Transform::from_translation(still);
+    studio.world().spawn((HAND, at));
+    stroke(&mut studio, HAND);
+
+    let combed = heights(&mut studio, surface).expect("it has its own");
+    let mesh = ground(16);
+    let positions = mesh.attribute(Mesh::ATTRIBUTE_POSITION);
+    let positions = positions.and_then(VertexAttributeValues::as_float3);
+    let positions = positions.expect("it has positions");
+    let (mut held, mut moved) = (0, 0);
+    for (&at, &height) in positions.iter().zip(&combed) {
+        if place.transform_point(Vec3::from(at)).distance(still) < HAND.radius {
+            assert_eq!(height, lean);
+            held += 1;
+        } else if height != lean {
+            moved += 1;
+        }
+    }
+    assert!(held > 0 && moved > 0, "{held} {moved}");
+}
+
+#[test]
+fn what_no_brush_combs_has_no_height_vectors_of_its_own() {
+    let mut studio = Studio::default();
+    let surface = lawn(&mut studio, f32::INFINITY);
+    studio.world().entity_mut(surface).insert(aslant());
+    let weak = TexelBrush {
+        strength: 0.0,
+        ..HAND
+    };
+    stroke(&mut studio, weak);
+    assert_eq!(heights(&mut studio, surface), None);
+}
+
+#[test]
+fn what_is_written_while_a_surface_is_left_out_is_at_rest_then() {
+    let mut studio = Studio::default();
+    let surface = lawn(&mut studio, 0.1);
+    let (hand, _) = stroke(&mut studio, HAND);
+    studio.world().despawn(hand);
+    studio.world().entity_mut(surface).remove::<StrokedTexels>();
+    studio.headless.step();
+    let lean = vec![Vec3::new(0.05, 0.2, 0.0); 17 * 17];
+    let own = TexelHeights(lean.clone());
+    studio.world().entity_mut(surface).insert(own);
+    for _ in 0..3 {
+        studio.headless.step();
+    }
+    let stroked = StrokedTexels { recovery: 0.1 };
+    studio.world().entity_mut(surface).insert(stroked);
+    for _ in 0..20 {
+        studio.headless.step();
+    }
+    assert_eq!(heights(&mut studio, surface), Some(lean));
 }
