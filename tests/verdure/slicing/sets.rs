@@ -239,7 +239,7 @@ fn a_slicing_that_changes_leaves_its_set_and_comes_back() {
     let changed = picture(&mut studio);
     gather(&mut studio, [crowns[0], crowns[1]]);
     assert_eq!(picture(&mut studio).rgb_bytes(), changed.rgb_bytes());
-    let (mut fresh, ..) = row(&[CROWN.clone()]);
+    let (mut fresh, ..) = row(core::slice::from_ref(&*CROWN));
     fresh.headless.step();
     assert_eq!(picture(&mut fresh).rgb_bytes(), changed.rgb_bytes());
 }

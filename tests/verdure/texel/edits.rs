@@ -95,8 +95,11 @@ fn a_volume_that_is_taken_away_stays_on_screen_until_another_is_in_its_place() {
 #[test]
 fn a_mesh_that_is_taken_away_stays_on_screen_until_another_is_in_its_place() {
     let other = || {
-        let mut square = Square::default();
-        square.heights = [Vec3::new(0.2, 0.6, 0.0); 4];
+        let heights = [Vec3::new(0.2, 0.6, 0.0); 4];
+        let square = Square {
+            heights,
+            ..Square::default()
+        };
         square.mesh()
     };
     let mesh_of = |studio: &mut Studio, surface| {

@@ -35,8 +35,10 @@ fn field(studio: &mut Studio, settings: TexelSettings, apart: bool) -> [Entity; 
     let world = studio.world();
     let surface = lollies(world, 1.0);
     core::array::from_fn(|i| {
-        let mut square = Square::default();
-        square.heights = [Vec3::Y * (0.7 + 0.03 * i as f32); 4];
+        let mut square = Square {
+            heights: [Vec3::Y * (0.7 + 0.03 * i as f32); 4],
+            ..Square::default()
+        };
         square.heights[i % 4].x += 0.1;
         let mesh = world.resource_mut::<Assets<Mesh>>().add(square.mesh());
         let (column, row) = ((i % ROW) as f32, (i / ROW) as f32);
