@@ -128,7 +128,8 @@ impl View {
         if let Some(offset) = self.jitter {
             camera.insert(TemporalJitter { offset });
         }
-        // What a material writes, and a camera's target, reach the pipelines a frame later.
+        // What a material writes, and a camera's target, reach the pipelines a frame later; jitter has a frame to spare.
+        studio.headless.step();
         studio.headless.step();
         target
     }
