@@ -20,6 +20,7 @@
 #![warn(missing_docs)]
 
 mod draw_functions;
+mod edited_assets;
 pub mod frusta;
 #[cfg(feature = "lab")]
 pub mod lab;

@@ -1,7 +1,7 @@
 //! What is on the GPU for the slicings in use, and the systems that keep it up to date.
 
+use bevy::asset::AssetId;
 use bevy::asset::prelude::AssetChanged;
-use bevy::asset::{AssetEvent, AssetId};
 use bevy::camera::Hdr;
 use bevy::camera::primitives::Aabb;
 use bevy::core_pipeline::tonemapping::Tonemapping;
@@ -23,6 +23,7 @@ use super::near::Nearness;
 use super::set::{CrownSet, SetKind, SetSource};
 use super::slicing::Slicing;
 use super::upload::{bounds, data};
+use crate::edited_assets::EditedAssets;
 use crate::lighting::SceneLights;
 use crate::wind::Wind;
 
@@ -306,37 +307,19 @@ pub(crate) fn attach(
 /// Follows slicings that were edited or reloaded, a device that has taken a lost one's place, and the choice of
 /// compression.
 pub(crate) fn follow_slicings(
-    mut events: MessageReader<AssetEvent<Slicing>>,
-    mut gone: Local<HashSet<AssetId<Slicing>>>,
+    mut changes: EditedAssets<Slicing>,
     mut library: ResMut<CrownLibrary>,
     mut assets: CrownAssets,
     slicings: Res<Assets<Slicing>>,
     wind: Res<Wind>,
 ) {
-    gone.retain(|id| library.shared.contains_key(id));
-    let mut edited: HashSet<AssetId<Slicing>> = HashSet::default();
-    for event in events.read() {
-        match event {
-            AssetEvent::Modified { id } => {
-                edited.insert(*id);
-            }
-            AssetEvent::Removed { id } if library.shared.contains_key(id) => {
-                gone.insert(*id);
-            }
-            // One that has come for the first time is drawn by `attach`.
-            AssetEvent::Added { id } if gone.remove(id) => {
-                edited.insert(*id);
-            }
-            _ => {}
-        }
-    }
+    changes.look(|id| library.shared.contains_key(&id));
+    let edited = &mut changes.edited;
     if assets.are_outdated() {
         edited.extend(library.shared.keys());
     }
-    for id in &edited {
-        if library.shared.contains_key(id)
-            && let Some(slicing) = slicings.get(*id)
-        {
+    for id in edited.iter() {
+        if let Some(slicing) = slicings.get(*id) {
             library.settle_alone(*id, slicing, wind.limited(), &mut assets);
         }
     }

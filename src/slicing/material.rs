@@ -128,7 +128,7 @@ pub struct SlicedCrownMaterial {
     #[texture(5, dimension = "2d_array")]
     pub(crate) normal: Handle<Image>,
     pub(crate) settings: CrownSettings,
-    /// Whether light comes through leaves of any of the slicings from behind.
+    /// Whether light comes through leaves from behind.
     pub(crate) transmits: bool,
     /// What lights the crowns in this scene.
     pub(crate) lighting: SceneLighting,

@@ -389,8 +389,12 @@ pub(crate) fn stroke(
             continue;
         }
         let id = mesh.id();
-        let place = transforms.compute_global_transform(entity);
-        let place = place.ok().and_then(|place| Place::new(place.affine()));
+        let angle = stroked.rise(time.delta_secs());
+        let rises = angle > 0.0 && combed.as_ref().is_some_and(|combed| combed.is_combed);
+        // Where nothing moves, it does not matter where a surface is.
+        let place = (moves || rises).then(|| transforms.compute_global_transform(entity));
+        let place = place.and_then(Result::ok);
+        let place = place.and_then(|place| Place::new(place.affine()));
         let is_near = moves
             && place.is_some_and(|place| {
                 let sphere = meshes.sphere(id, is_live);
@@ -432,7 +436,6 @@ pub(crate) fn stroke(
                 strokes.iter().any(|stroke| stroke.reaches(at))
             })
         };
-        let angle = stroked.rise(time.delta_secs());
         let has_risen = combed.is_combed && angle > 0.0 && combed.rise(angle, is_held);
         let is_stroked = is_near && place.is_some_and(|place| combed.stroke(&place, strokes));
         combed.is_shown = heights.is_some();

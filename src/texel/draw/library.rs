@@ -94,8 +94,6 @@ struct SharedVolume {
     boxes: Arc<SliceBoxes>,
     /// Colours and normals across u, v and w.
     images: [[Handle<Image>; 2]; 3],
-    /// Whether the volume itself has been taken away since.
-    is_gone: bool,
 }
 
 /// What is on the GPU, as long as a surface uses it.
@@ -106,8 +104,6 @@ pub(crate) struct TexelLibrary {
     geometries: HashMap<GeometryKey, Option<Geometry>>,
     /// Where facets are on the GPU.
     pub space: FacetSpace,
-    /// Meshes that were taken away since facets were made of them.
-    gone_meshes: HashSet<AssetId<Mesh>>,
     /// Counts frames.
     pub frame: u64,
     materials: HashMap<MaterialKey, [Handle<TexelMaterial>; 6]>,
@@ -270,7 +266,6 @@ impl TexelLibrary {
                 measure,
                 boxes: Arc::new(SliceBoxes::of(&sets)),
                 images,
-                is_gone: false,
             };
             self.volumes.insert(key, shared);
         }
@@ -284,21 +279,9 @@ impl TexelLibrary {
         self.is_stale = true;
     }
 
-    /// Notes that a volume was taken away. What was made of it stays as long as a surface shows it.
-    pub(crate) fn lose_volume(&mut self, id: AssetId<TexelVolume>) {
-        for (key, volume) in &mut self.volumes {
-            volume.is_gone |= key.id == id;
-        }
-    }
-
-    /// Forgets what was made of a volume that was taken away, for there is one in its place. Of one that is simply new nothing is
-    /// forgotten: it may have been cut in the frame in which it came, before that was told.
-    pub(crate) fn regain_volume(&mut self, id: AssetId<TexelVolume>) {
-        let is_of_the_old =
-            |(key, volume): (&VolumeKey, &SharedVolume)| key.id == id && volume.is_gone;
-        if self.volumes.iter().any(is_of_the_old) {
-            self.forget_volume(id);
-        }
+    /// Whether anything was made of a volume.
+    pub(crate) fn uses_volume(&self, id: AssetId<TexelVolume>) -> bool {
+        self.volumes.keys().any(|key| key.id == id)
     }
 
     /// Tells all materials of a change of wind.
@@ -430,22 +413,15 @@ impl TexelLibrary {
             .retain(|key, geometry| geometry.is_some() || key.own != Some(owner));
     }
 
-    /// Notes that a mesh was taken away: what was told of it is forgotten, and what was made of it stays as long as a surface
-    /// shows it.
-    pub(crate) fn lose_mesh(&mut self, id: AssetId<Mesh>) {
-        self.geometries
-            .retain(|key, geometry| geometry.is_some() || key.mesh != id);
-        if self.geometries.keys().any(|key| key.mesh == id) {
-            self.gone_meshes.insert(id);
-        }
+    /// Whether a mesh was looked at.
+    pub(crate) fn uses_mesh(&self, id: AssetId<Mesh>) -> bool {
+        self.geometries.keys().any(|key| key.mesh == id)
     }
 
-    /// Forgets the facets of a mesh that was taken away, for there is one in its place.
-    pub(crate) fn regain_mesh(&mut self, id: AssetId<Mesh>) {
-        if self.gone_meshes.remove(&id) {
-            self.geometries.retain(|key, _| key.mesh != id);
-            self.is_stale = true;
-        }
+    /// Forgets what was told of a mesh that is gone.
+    pub(crate) fn forget_mesh(&mut self, id: AssetId<Mesh>) {
+        self.geometries
+            .retain(|key, geometry| geometry.is_some() || key.mesh != id);
     }
 
     /// Forgets everything, on a device that has taken a lost one's place and has nothing of what was there.
@@ -467,9 +443,6 @@ impl TexelLibrary {
             .retain(|key, geometry| geometries.contains(key) || geometry.is_none());
         let volumes: HashSet<_> = materials.iter().map(|key| key.volume).collect();
         self.volumes.retain(|key, _| volumes.contains(key));
-        let geometries = &self.geometries;
-        self.gone_meshes
-            .retain(|id| geometries.keys().any(|key| key.mesh == *id));
     }
 }
 

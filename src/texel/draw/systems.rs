@@ -14,6 +14,7 @@ use super::component::{LiveTexels, TexelCycle, TexelHeights, TexelSettings, Texe
 use super::library::{Drawn, GeometryKey, TexelAssets, TexelKeys, TexelLibrary};
 use super::material::TexelMaterial;
 use super::source::SliceSource;
+use crate::edited_assets::EditedAssets;
 use crate::lighting::SceneLights;
 use crate::wind::Wind;
 
@@ -199,35 +200,27 @@ pub(crate) fn attach(
     }
 }
 
-/// Follows meshes and volumes that were edited or reloaded. A volume that was taken away stays on screen until another is put in
-/// its place.
+/// Follows meshes and volumes that were edited, reloaded, or taken away and put back. Until then what was made of them stays on
+/// screen.
 pub(crate) fn follow_assets(
-    mut edited_meshes: MessageReader<AssetEvent<Mesh>>,
-    mut edited_volumes: MessageReader<AssetEvent<TexelVolume>>,
+    mut meshes: EditedAssets<Mesh>,
+    mut volumes: EditedAssets<TexelVolume>,
     live: Query<(), With<LiveTexels>>,
     mut library: ResMut<TexelLibrary>,
     assets: TexelAssets,
 ) {
     library.settle();
-    for event in edited_volumes.read() {
-        match event {
-            AssetEvent::Modified { id } => library.forget_volume(*id),
-            AssetEvent::Removed { id } => library.lose_volume(*id),
-            AssetEvent::Added { id } => library.regain_volume(*id),
-            _ => {}
-        }
+    volumes.look(|id| library.uses_volume(id));
+    for id in volumes.edited.iter() {
+        library.forget_volume(*id);
     }
-    let mut seen = HashSet::<AssetId<Mesh>>::default();
-    for event in edited_meshes.read() {
-        match event {
-            AssetEvent::Removed { id } => library.lose_mesh(*id),
-            AssetEvent::Added { id } => library.regain_mesh(*id),
-            // Live surfaces are followed anyway, but not those that share their mesh.
-            AssetEvent::Modified { id } if seen.insert(*id) => {
-                library.follow_mesh(*id, |owner| live.contains(owner), &assets);
-            }
-            _ => {}
-        }
+    meshes.look(|id| library.uses_mesh(id));
+    for id in meshes.removed.iter() {
+        library.forget_mesh(*id);
+    }
+    for id in meshes.edited.iter() {
+        // Live surfaces are followed anyway, but not those that share their mesh.
+        library.follow_mesh(*id, |owner| live.contains(owner), &assets);
     }
 }
 

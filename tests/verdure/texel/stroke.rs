@@ -5,11 +5,11 @@ use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Shot, Studio};
 use bevy_verdure::prelude::*;
 
-use super::uploads::stats;
+use super::uploads::{FACET, stats};
 use super::{BACKGROUND, SIZE, lollies, unlit};
 
 /// Bytes of the lawn's facets.
-const ALL: usize = 2 * 16 * 16 * 144;
+const ALL: usize = 2 * 16 * 16 * FACET;
 
 const HAND: TexelBrush = TexelBrush {
     radius: 0.3,

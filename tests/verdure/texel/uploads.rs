@@ -10,7 +10,7 @@ use bevy_verdure::texel::TexelStats;
 use super::{BACKGROUND, cover_default, lollies, shot, unlit};
 
 /// Bytes of a facet, as its shaders have it.
-const FACET: usize = 144;
+pub const FACET: usize = 144;
 
 /// Squares along each side of a lawn.
 const SIDE: usize = 8;
