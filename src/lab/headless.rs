@@ -17,12 +17,13 @@ use bevy::time::TimeUpdateStrategy;
 use bevy::window::ExitCondition;
 
 use super::capture::Pixels;
+use super::shaders::load_shaders;
 
 /// Frames after which a picture that has not come back never will.
 const PATIENCE: usize = 64;
 
-/// An app that renders without a window. Time advances by a fixed step a frame, and pipelines are compiled before
-/// they are needed, so that two runs draw the same pictures.
+/// An app that renders without a window. Time advances by a fixed step a frame, and shaders are there and pipelines compiled
+/// before they are needed, so that two runs draw the same pictures.
 pub struct Headless {
     app: App,
 }
@@ -72,6 +73,7 @@ impl Headless {
         configure(&mut app);
         app.finish();
         app.cleanup();
+        load_shaders(app.world_mut());
         // Lights are sorted on the CPU: sorted on Mesa's software device, spot lights light nothing.
         if let Some(mut clusters) = app.world_mut().get_resource_mut::<GlobalClusterSettings>() {
             clusters.gpu_clustering = None;

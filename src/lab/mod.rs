@@ -19,6 +19,7 @@ mod model;
 mod octahedral;
 pub mod reference;
 pub mod rivals;
+mod shaders;
 mod slicing_file;
 mod studio;
 mod supersample;

@@ -21,6 +21,7 @@ mod skeleton_files;
 mod skeletons;
 mod skinned;
 mod slicing;
+mod slow_disk;
 mod texel;
 mod twins;
 mod view;

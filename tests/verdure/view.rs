@@ -128,8 +128,7 @@ impl View {
         if let Some(offset) = self.jitter {
             camera.insert(TemporalJitter { offset });
         }
-        // What a material writes, and a camera's target, reach the pipelines a frame later; jitter has a frame to spare.
-        studio.headless.step();
+        // What a material writes, and a camera's target, reach the pipelines a frame later.
         studio.headless.step();
         target
     }
