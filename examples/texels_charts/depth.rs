@@ -27,7 +27,7 @@ pub fn against_depth(lab: &Lab) -> Result<Chart, String> {
     let mut series = Vec::new();
     for (name, shot) in [("from the side", side), ("from above", above)] {
         let whole = Whole::of(&mut stand, shot, PlantLighting::Simple);
-        for pixels in [1.0, 2.0] {
+        for pixels in [TexelQuality::default().pixels, 2.0] {
             let points = depths.iter().map(|&depth| {
                 let settings = with(depth, pixels, PlantLighting::Simple);
                 let is_default = settings == TexelSettings::default();

@@ -118,11 +118,14 @@ fn ways(lab: &Lab, field: &mut Field) -> Vec<Way> {
         let texels = field.cover(&volume, with(depth, usual.pixels));
         add("texels, by d/e", depth.to_string(), false, texels);
     }
-    for pixels in [8.0, 4.0, 2.0, 1.0, 0.5].into_iter().step_by(every) {
+    for pixels in [8.0, 4.0, 2.0, usual.pixels, 0.5]
+        .into_iter()
+        .step_by(every)
+    {
         let texels = field.cover(&volume, with(0.125, pixels));
         add("texels, by p at d = e/8", pixels.to_string(), false, texels);
     }
-    for pixels in [4.0, 2.0, 1.0, 0.5].into_iter().step_by(every) {
+    for pixels in [4.0, 2.0, usual.pixels, 0.5].into_iter().step_by(every) {
         let mut settings = TexelSettings::default();
         settings.quality.pixels = pixels;
         let is_default = settings == TexelSettings::default();

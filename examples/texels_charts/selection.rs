@@ -21,9 +21,9 @@ pub fn against_settings(lab: &Lab) -> Result<Chart, String> {
     stand.multisample();
     let mut series = Vec::new();
     let (depths, pixels): (&[f32], &[f32]) = if lab.quick {
-        (&[], &[0.5, 0.75, 1.0, 2.0])
+        (&[], &[0.5, 0.75, 0.95, 2.0])
     } else {
-        (&[0.25, 1.0, 2.0], &[0.25, 0.5, 0.75, 1.0, 2.0, 4.0])
+        (&[0.25, 1.0, 2.0], &[0.25, 0.5, 0.75, 0.95, 2.0, 4.0])
     };
     let default_quality = TexelQuality::default();
     for (name, lighting) in LIGHTS {

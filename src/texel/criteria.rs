@@ -73,12 +73,12 @@ pub fn count_exponent(slices: f32, most: u32) -> u32 {
     exponent
 }
 
-/// The last part of the way to the next count, and to the next direction, in which one fades into the other. Both are drawn
-/// meanwhile, three times the slices where a count doubles: a quarter of the way would draw two fifths more on the whole, a sixteenth would pop.
+/// The last part of the way to the next count, and to the next direction, in which one turns into the other. Twice the slices are
+/// drawn meanwhile: a quarter of the way would draw two fifths more on the whole, a sixteenth would pop.
 pub const FADE: f32 = 0.09375;
 
-/// The share of twice as many slices that fades in before they are needed, where 2^`exponent` still do: 0 to 1. So nothing
-/// pops when the count doubles, and there are never fewer slices than asked for.
+/// How far twice as many slices have moved apart before they are needed, where 2^`exponent` still do: 0 to 1. So nothing
+/// pops when the count doubles, and slices are never further apart than asked for.
 pub fn finer_share(slices: f32, exponent: u32, most: u32) -> f32 {
     if 1u32 << (exponent + 1) > most {
         return 0.0;

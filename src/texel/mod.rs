@@ -34,7 +34,7 @@
 //! * e is measured, by what "narrowest" may mean for any contour; the paper leaves it to the user.
 //! * Counts hold at the corners of a facet's prism; the paper takes angles at its centre, so that a large facet below the
 //!   eye would be one slice.
-//! * Counts and directions fade into one another, pixel by pixel; the paper's pop.
+//! * Where counts double slices move apart, and directions fade into one another, pixel by pixel; the paper's pop.
 //! * The two slice counts, by depth and by distance, bound each other: the smaller will do.
 
 mod asset;
@@ -60,7 +60,7 @@ pub use asset::{TexelVolume, TexelVolumeLoader, TexelVolumePlugin};
 pub use axis::SliceAxis;
 pub use bake::BakedLight;
 pub use choose::{
-    AxisSlices, Choice, DirectionRule, TexelQuality, TexelView, VolumeMeasure, choose,
+    AxisSlices, Choice, DirectionRule, DrawnSlices, TexelQuality, TexelView, VolumeMeasure, choose,
     choose_fading,
 };
 pub use draw::{

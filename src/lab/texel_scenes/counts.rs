@@ -33,21 +33,20 @@ pub(crate) fn count(
     let mut counts = SliceCounts::default();
     for facet in facets {
         let all = choose_fading(facet, &measure, &view, &settings.quality);
-        let sets = all.iter().flatten();
-        let sets = sets.flat_map(|best| {
-            best.sets(settings.fade)
-                .map(move |(count, _)| (best, count))
-        });
         let mut is_seen = false;
-        for (best, count) in sets {
+        for best in all.iter().flatten() {
+            let Some(drawn) = best.drawn(settings.fade) else {
+                continue;
+            };
             let axis = best.axis;
             let is_drawn = |slice: &i32| {
                 settings.empty_slices
                     || boxes
-                        .trim(facet.uvs, axis, *slice, count, best.footprint)
+                        .trim(facet.uvs, axis, *slice, &drawn, best.footprint)
                         .is_some()
             };
-            let slices = slice_range(facet.uvs, axis, count).filter(is_drawn).count();
+            let range = slice_range(facet.uvs, axis, drawn.count, drawn.apart);
+            let slices = range.filter(is_drawn).count();
             is_seen = true;
             counts.slices += slices;
             counts.triangles += slices * if axis == SliceAxis::W { 1 } else { 2 };

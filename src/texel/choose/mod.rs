@@ -87,7 +87,7 @@ impl Default for TexelQuality {
         Self {
             direction: DirectionRule::default(),
             depth: depth_limit(1.0),
-            pixels: 1.0,
+            pixels: PIXELS,
             least_angle: LEAST_ANGLE,
         }
     }
@@ -107,6 +107,9 @@ impl TexelQuality {
         self
     }
 }
+
+/// A little less than one, at which a mean FLIP below 0.01 keeps a picture of lit texels like that of all slices.
+const PIXELS: f32 = 0.95;
 
 /// That of which the tangent is one half: slices that are next to one another along the view are at most twice as far apart as
 /// those next to one another on the screen may be.
@@ -129,6 +132,20 @@ pub enum Choice {
     },
 }
 
+/// What is drawn across one axis of a facet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrawnSlices {
+    /// How many slices a texel has, a power of two.
+    pub count: u32,
+    /// How far, 0 to 1, the two of a pair have moved apart from the middle of the slice of half as many that they lie in
+    /// ([`slice_position`](super::facet::slice_position)); 1 if they do not take the place of that one.
+    pub apart: f32,
+    /// Which pixels of the view are theirs, if each has a lot from 0 to 1: from the first to the second.
+    pub lots: [f32; 2],
+    /// How deep inside of contours one may see; a length in the space of the facet.
+    pub inside: f32,
+}
+
 /// Slices across one axis of a facet, as a view shows them that fades what it shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisSlices {
@@ -138,7 +155,7 @@ pub struct AxisSlices {
     pub exponent: u32,
     /// Whether the view goes to where the axis' coordinate grows, so that the first slices are the nearest.
     pub along: bool,
-    /// The share, 0 to 1, of twice as many slices, which take the place of these.
+    /// How far, 0 to 1, twice as many slices have moved apart from the places of these: at 0 these are drawn, else those.
     pub finer: f32,
     /// Which pixels of the view are those of this axis, if each has a lot from 0 to 1: from the first to the second.
     pub lots: [f32; 2],
@@ -199,18 +216,26 @@ pub fn choose_fading(
 }
 
 impl AxisSlices {
-    /// The sets that are drawn: how many slices a texel has in each, and the pixels' lots that it gets. Twice as many fade in from
-    /// the lower lots on. Without fading, whichever has more of the lots has all.
-    pub fn sets(&self, fades: bool) -> impl Iterator<Item = (u32, [f32; 2])> {
-        let ([mut low, mut high], mut finer) = (self.lots, self.finer);
+    /// What is drawn, if anything. Without fading, whichever direction has more of the lots has all, and counts change at once.
+    pub fn drawn(&self, fades: bool) -> Option<DrawnSlices> {
+        let (mut lots, mut finer) = (self.lots, self.finer);
         if !fades {
-            (low, high, finer) = (low.round(), high.round(), 0.0);
+            (lots, finer) = (lots.map(f32::round), 0.0);
         }
-        let split = low + (high - low) * finer;
         let count = 1u32 << self.exponent;
-        [(count, [split, high]), (2 * count, [low, split])]
-            .into_iter()
-            .filter(|(_, [low, high])| low < high)
+        let (count, apart) = if finer > 0.0 {
+            (2 * count, finer)
+        } else {
+            (count, 1.0)
+        };
+        // The widest gap is between pairs, and closes from that of half as many slices on.
+        let inside = self.inside * (1.0 - 0.5 * finer);
+        (lots[0] < lots[1]).then_some(DrawnSlices {
+            count,
+            apart,
+            lots,
+            inside,
+        })
     }
 }
 

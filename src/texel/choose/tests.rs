@@ -3,6 +3,7 @@
 use bevy::math::Vec2;
 
 use super::super::criteria::gap_ratio;
+use super::super::facet::slice_position;
 use super::*;
 
 /// A metre of surface with one texel of 64³, a quarter high.
@@ -252,4 +253,42 @@ fn bounds_that_are_no_numbers_above_zero_draw_all_slices() {
         }
     }
     assert!(matches!(fewer, Choice::Slices { exponent, .. } if exponent < 6));
+}
+
+#[test]
+fn what_is_drawn_goes_on_where_counts_double() {
+    let mut counts = Vec::new();
+    let mut before: Option<DrawnSlices> = None;
+    // So slowly that the way on which slices move apart, the last three thirty-seconds, is many steps long.
+    for i in 0..4000 {
+        let view = looking(Vec3::new(0.5, 0.0, -1.0), 40.0 * 0.999f32.powi(i));
+        let [_, _, w] = choose_fading(&facet(), &measure(), &view, &TexelQuality::default());
+        let drawn = w.and_then(|slices| slices.drawn(true));
+        let drawn = drawn.expect("slices along w are best, and have all lots");
+        counts.push(drawn.count);
+        if let Some(before) = before {
+            // Those that take the place of others begin where these are.
+            let doubled = drawn.count / before.count;
+            for slice in 0..drawn.count as i32 {
+                let place = slice_position(slice / doubled as i32, before.count, before.apart);
+                let moved = slice_position(slice, drawn.count, drawn.apart) - place;
+                // A step nearer changes what is needed by 1 to 2 in 1,000, and the way apart, half a layer, by 11 times as much.
+                assert!(
+                    moved.abs() * drawn.count as f32 <= 0.02,
+                    "{before:?} {drawn:?}"
+                );
+            }
+            assert!(
+                (before.inside - drawn.inside).abs() <= 0.03 * before.inside,
+                "{before:?} {drawn:?}"
+            );
+        }
+        before = Some(drawn);
+    }
+    counts.dedup();
+    assert!(counts.len() > 3, "{counts:?}");
+    assert!(
+        counts.windows(2).all(|pair| pair[1] == 2 * pair[0]),
+        "{counts:?}"
+    );
 }

@@ -131,7 +131,8 @@ pub struct TexelSettings {
     /// device has at most half as many as it has layers of a texture array; where that is fewer than the volume has voxels and
     /// than are asked for, a warning names the volume.
     pub most_slices: u32,
-    /// Whether counts and directions of slices fade into one another, pixel by pixel, as the view changes; else they pop.
+    /// Whether slices move apart where their number doubles, and directions fade into one another, pixel by pixel, as the view
+    /// changes; else they pop.
     pub fade: bool,
     /// What lights the texels; [`Unlit`](PlantLighting::Unlit) ones have the colours of the volume.
     pub lighting: PlantLighting,

@@ -8,8 +8,10 @@ use bevy::pbr::MeshFlags;
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
 use bevy::render::Extract;
+use bevy::render::renderer::RenderDevice;
 
-use super::records::{MAX_SURFACES, SurfaceRecord};
+use super::limit::DeviceLimits;
+use super::records::SurfaceRecord;
 use super::source::SliceSource;
 use crate::wind::Wind;
 
@@ -60,8 +62,10 @@ pub(crate) fn extract(
     surfaces: Extract<Query<Extracted>>,
     views: Extract<Query<(Entity, &RenderLayers), Sees>>,
     wind: Extract<Res<Wind>>,
+    device: Option<Res<RenderDevice>>,
 ) {
     let texels = &mut *texels;
+    let most = DeviceLimits::of(device.as_deref()).surfaces;
     texels.wind = wind.limited();
     core::mem::swap(&mut texels.places, &mut texels.previous);
     texels.places.clear();
@@ -73,8 +77,11 @@ pub(crate) fn extract(
         if !visibility.get() {
             continue;
         }
-        if texels.surfaces.len() == MAX_SURFACES {
-            error_once!("texels are left out: there are more than {MAX_SURFACES} surfaces");
+        if texels.surfaces.len() == most {
+            error_once!(
+                "texels are left out: there are more than {most} surfaces, all that a buffer of this device takes; join \
+                 meshes"
+            );
             break;
         }
         let world_from_local = transform.affine();

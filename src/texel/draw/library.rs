@@ -521,6 +521,7 @@ mod tests {
         let limits = DeviceLimits {
             layers: 256,
             facets: 1,
+            surfaces: 1,
         };
         let size = UVec3::new(256, 64, 32);
         let told = fewer_slices(size, 300, limits).expect("256 are wanted");

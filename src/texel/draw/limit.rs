@@ -4,7 +4,7 @@ use bevy::render::renderer::RenderDevice;
 
 use super::super::axis::SliceAxis;
 use super::super::facet::{Facet, slice_range};
-use super::records::FacetRecord;
+use super::records::{FacetRecord, MAX_SURFACES, SurfaceRecord};
 
 /// The most slices that a surface may show across each axis in one view. 32 bytes each; those of all surfaces and views of a frame
 /// are in one buffer, and what does not fit in that is left out, with an error.
@@ -17,6 +17,8 @@ pub(crate) struct DeviceLimits {
     pub layers: u32,
     /// Facets in a storage buffer: a surface has one at most, and shares it if it can.
     pub facets: usize,
+    /// Surfaces in a frame, which are in one storage buffer.
+    pub surfaces: usize,
 }
 
 /// Layers of a texture array that every device has.
@@ -27,10 +29,11 @@ const BUFFER_BYTES: u64 = 1 << 27;
 
 impl DeviceLimits {
     fn new(layers: u32, buffer_bytes: u64) -> Self {
-        let facets = buffer_bytes / size_of::<FacetRecord>() as u64;
+        let bytes = usize::try_from(buffer_bytes).unwrap_or(usize::MAX);
         Self {
             layers,
-            facets: usize::try_from(facets).unwrap_or(usize::MAX),
+            facets: bytes / size_of::<FacetRecord>(),
+            surfaces: MAX_SURFACES.min(bytes / size_of::<SurfaceRecord>()),
         }
     }
 
@@ -53,19 +56,14 @@ impl DeviceLimits {
     }
 }
 
-/// How many slices a facet may show of at most so many a texel across an axis, with half as many that fade into them.
+/// How many slices a facet may show of at most so many a texel across an axis.
 ///
-/// Fewer slices a texel are no more on a facet, but for what rounding adds: an interval of length ℓ meets at most ⌈ℓN⌉ of N
-/// slices a texel.
+/// Fewer slices a texel are no more on a facet, but for what rounding adds: an interval of length ℓ meets ⌊ℓN⌋ or ⌈ℓN⌉ of N slices
+/// a texel, and less than ℓN + 2 of them where pairs have not moved apart.
 pub(crate) fn most_on_facet(facet: &Facet, axis: SliceAxis, most: u32) -> usize {
-    let on_facet = |count: u32| {
-        let range = slice_range(facet.uvs, axis, count);
-        range.end.abs_diff(range.start) as usize + usize::from(axis != SliceAxis::W)
-    };
-    match most {
-        0 | 1 => on_facet(1),
-        _ => on_facet(most) + on_facet(most / 2),
-    }
+    let range = slice_range(facet.uvs, axis, most.max(1), 1.0);
+    let rounding = if axis == SliceAxis::W { 0 } else { 2 };
+    range.end.abs_diff(range.start) as usize + rounding
 }
 
 #[cfg(test)]
@@ -80,6 +78,8 @@ mod tests {
         let limits = DeviceLimits::of(None);
         assert_eq!(limits, DeviceLimits::new(256, 1 << 27));
         assert_eq!((limits.slices(), limits.facets), (128, (1 << 27) / 144));
+        assert_eq!(limits.surfaces, (1 << 27) / 112);
+        assert_eq!(DeviceLimits::new(256, u64::MAX).surfaces, MAX_SURFACES);
         assert_eq!(DeviceLimits::new(1, 143).facets, 0);
         assert_eq!(DeviceLimits::new(0, 0).slices(), 1);
     }
@@ -87,11 +87,12 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]
 
-        /// What a view may show: a count, and twice as many that fade in.
+        /// What a view may show: a count, and twice as many that move apart.
         #[test]
         fn no_count_with_the_next_is_more(
             uvs in prop::array::uniform3(prop::array::uniform2(-3.0..3.0f32)),
             most in 0..9u32,
+            apart in 0.0..1.0f32,
         ) {
             let facet = Facet {
                 positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
@@ -101,9 +102,11 @@ mod tests {
             for axis in SliceAxis::ALL {
                 let limit = most_on_facet(&facet, axis, 1 << most);
                 for exponent in 0..=most {
-                    let on_facet = |count| slice_range(facet.uvs, axis, count).len();
-                    let finer = if exponent < most { on_facet(2 << exponent) } else { 0 };
-                    prop_assert!(on_facet(1 << exponent) + finer <= limit, "{axis:?} {exponent} {limit}");
+                    let apart = if exponent > 0 { apart } else { 1.0 };
+                    for apart in [0.0, apart, 1.0] {
+                        let range = slice_range(facet.uvs, axis, 1 << exponent, apart);
+                        prop_assert!(range.len() <= limit, "{axis:?} {exponent} {apart} {limit}");
+                    }
                 }
             }
         }

@@ -1,18 +1,20 @@
-//! The slices of every surface in every view. What has changed is listed anew, and if anything has, all lists are written to
-//! the GPU.
+//! The slices of every surface in every view. What has changed is listed anew, and written to the GPU.
 
 use core::ops::Range;
 
 use bevy::platform::collections::HashMap;
 use bevy::prelude::*;
-use bevy::render::render_resource::{Buffer, BufferUsages, RawBufferVec};
+use bevy::render::render_resource::{Buffer, BufferUsages};
 use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy::render::sync_world::MainEntity;
+use bytemuck::Zeroable;
 
 use super::extract::ExtractedTexels;
 use super::groups::Groups;
 use super::jobs::{Job, list_stale};
 use super::leader::Leaders;
+use super::limit::DeviceLimits;
+use super::mirror::{BLOCK, Mirror};
 use super::records::{SliceRecord, SurfaceRecord};
 use super::stats::TexelStats;
 use super::view::{Seeing, ShowsTexels, ViewInFrame, views};
@@ -26,11 +28,14 @@ pub(crate) struct Run {
     pub leaders: Leaders,
 }
 
+/// Runs begin at multiples of as many slices, so that one that grows or shrinks a little leaves the others where they are.
+const ALIGNED: usize = BLOCK / size_of::<SliceRecord>();
+
 /// The slices of every surface in every view of this frame, on the GPU.
 #[derive(Resource)]
 pub(crate) struct SliceLists {
-    records: RawBufferVec<SliceRecord>,
-    surfaces: RawBufferVec<SurfaceRecord>,
+    records: Mirror<SliceRecord>,
+    surfaces: Mirror<SurfaceRecord>,
     groups: Groups,
     views: Vec<ViewInFrame>,
     /// The numbers of views.
@@ -43,18 +48,15 @@ pub(crate) struct SliceLists {
 
 impl Default for SliceLists {
     fn default() -> Self {
-        let mut lists = Self {
-            records: RawBufferVec::new(BufferUsages::VERTEX),
-            surfaces: RawBufferVec::new(BufferUsages::STORAGE),
+        Self {
+            records: Mirror::new("texel_slices", BufferUsages::VERTEX),
+            surfaces: Mirror::new("texel_surfaces", BufferUsages::STORAGE),
             groups: Groups::default(),
             views: Vec::new(),
             numbers: HashMap::default(),
             jobs: Vec::new(),
             runs: Vec::new(),
-        };
-        lists.records.set_label(Some("texel slices"));
-        lists.surfaces.set_label(Some("texel surfaces"));
-        lists
+        }
     }
 }
 
@@ -110,16 +112,18 @@ impl SliceLists {
 
     /// Joins lists to runs: at most so many slices.
     fn join(&mut self, texels: &ExtractedTexels, limit: usize) {
-        self.records.clear();
+        let records = self.records.next();
         self.runs.clear();
         for (view, jobs) in self.views.iter().zip(&self.jobs) {
             for group in self.groups.sorted(&texels.surfaces, &view.from) {
                 for axis in 0..3 {
-                    let start = self.records.len() as u32;
+                    let end = records.len();
+                    let start = end.next_multiple_of(ALIGNED).min(limit);
+                    records.resize(start, SliceRecord::zeroed());
                     for placed in group {
                         for job in &jobs[placed.jobs.clone()] {
                             let list = &job.lists[axis];
-                            if self.records.len() + list.len() > limit {
+                            if records.len() + list.len() > limit {
                                 error_once!(
                                     "texels are left out: a frame has more than {limit} slices, all that a buffer of this \
                                      device takes; raise TexelQuality::pixels or depth, or lower TexelSettings::most_slices"
@@ -127,46 +131,20 @@ impl SliceLists {
                                 continue;
                             }
                             let surface = placed.surface as u32;
-                            let records = list.iter().map(|slice| slice.of_surface(surface));
-                            self.records.extend(records);
+                            records.extend(list.iter().map(|slice| slice.of_surface(surface)));
                         }
                     }
                     self.runs.push(Run {
-                        records: start..self.records.len() as u32,
+                        records: start as u32..records.len() as u32,
                         pool: group[0].pool,
                         leaders: Leaders::default(),
                     });
+                    if records.len() == start {
+                        records.truncate(end);
+                    }
                 }
             }
         }
-    }
-
-    /// Writes all slices. Tells how many bytes that are.
-    fn write(&mut self, limit: usize, device: &RenderDevice, queue: &RenderQueue) -> usize {
-        // Not for each that is added a buffer anew.
-        let capacity = self.records.len().next_power_of_two().min(limit);
-        self.records.reserve(capacity, device);
-        self.records.write_buffer(device, queue);
-        size_of_val(self.records.values().as_slice())
-    }
-
-    /// Writes where surfaces are, if they have moved. Tells how many bytes that are.
-    fn write_surfaces(
-        &mut self,
-        texels: &ExtractedTexels,
-        device: &RenderDevice,
-        queue: &RenderQueue,
-    ) -> usize {
-        let records = texels.surfaces.iter().map(|surface| surface.record);
-        if records.clone().eq(self.surfaces.values().iter().copied()) {
-            return 0;
-        }
-        self.surfaces.clear();
-        self.surfaces.extend(records);
-        let capacity = self.surfaces.len().next_power_of_two();
-        self.surfaces.reserve(capacity, device);
-        self.surfaces.write_buffer(device, queue);
-        size_of_val(self.surfaces.values().as_slice())
     }
 }
 
@@ -190,14 +168,18 @@ pub(crate) fn list_slices(
     stats.listed = lists.list(&texels);
     let limit = device.limits().max_buffer_size as usize / size_of::<SliceRecord>();
     let limit = limit.min(u32::MAX as usize);
-    stats.list_bytes = lists.write_surfaces(&texels, &device, &queue);
+    let most = DeviceLimits::of(Some(&device)).surfaces;
+    let records = texels.surfaces.iter().map(|surface| surface.record);
+    lists.surfaces.next().extend(records);
+    stats.list_bytes = lists.surfaces.write(most, &device, &queue);
     if are_others || stats.listed > 0 {
         lists.join(&texels, limit);
-        stats.list_bytes += lists.write(limit, &device, &queue);
+        stats.list_bytes += lists.records.write(limit, &device, &queue);
     }
     for run in &mut lists.runs {
         run.leaders.clear();
     }
-    let draws = lists.runs.iter().filter(|run| !run.records.is_empty());
-    (stats.slices, stats.draws) = (lists.records.len(), draws.count());
+    let drawn = lists.runs.iter().map(|run| run.records.len());
+    stats.slices = drawn.clone().sum();
+    stats.draws = drawn.filter(|&slices| slices > 0).count();
 }

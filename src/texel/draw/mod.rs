@@ -24,8 +24,9 @@
 //! `combed.rs`).
 //!
 //! # What does not pop
-//! Where twice as many slices will soon be needed, they fade in, and so does the second best direction where it is nearly as
-//! good as the best: each pixel of the screen draws a lot, and shows the slices whose it is. Either set alone would do.
+//! Where twice as many slices will soon be needed, two take the place of each, which show together what it does, and move apart
+//! from there to where they belong. The second best direction fades in where it is nearly as good as the best: each pixel of the
+//! screen draws a lot, and shows the slices whose it is. Either direction alone would do.
 //!
 //! # Light on slices
 //! Slices show the inside of things, by up to d (§4.1), and shadow maps have slices too, which stand out towards the light. So what is
@@ -35,10 +36,11 @@
 //! A group of surfaces is three draws for depth and three for colours, one for each axis, where that axis has slices; three in a
 //! shadow map. Settings that split groups are those of light and material, `flexibility`, `inner_slices` and `most_slices`; meshes,
 //! transforms, thickness and quality do not. Where neither the view nor a surface moves, and no wind bends it, nothing is chosen,
-//! listed or written; else all lists of the frame are joined and written, 32 bytes a slice ([`TexelStats`] counts them). Light
-//! costs what is seen; most of the rest is looking up, slice by slice, what is there, in shadow maps as well: fewer pixels of
-//! these save slices. On a camera with a [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) that draws the depth. On
-//! the GPU a volume has all its sets of slices, some 64 bytes a voxel.
+//! listed or written; else all lists of the frame are joined, and what differs of them is written (`mirror.rs`), 32 bytes a slice
+//! ([`TexelStats`] counts them). Light costs what is seen; most of the rest is looking up, slice by slice, what is there, in
+//! shadow maps as well: fewer pixels of these save slices. On a camera with a
+//! [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) that draws the depth. On the GPU a volume has all its sets of
+//! slices, some 64 bytes a voxel.
 //!
 //! # What it does not do
 //! Meshes with morph targets carry texels where they are at rest, with a warning. Motion vectors leave skins and wind out.
@@ -65,6 +67,7 @@ mod library;
 mod limit;
 mod lists;
 mod material;
+mod mirror;
 mod records;
 mod room;
 mod skin;

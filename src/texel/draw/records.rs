@@ -6,6 +6,7 @@ use bevy::pbr::MeshFlags;
 use bevy::render::render_resource::VertexStepMode;
 use bytemuck::{Pod, Zeroable};
 
+use super::super::choose::DrawnSlices;
 use super::super::facet::Facet;
 use super::super::slice_sets::Trim;
 
@@ -47,12 +48,14 @@ pub(crate) struct SliceRecord {
     pub slice: i32,
     /// The exponent of N, of so many a texel, in the lowest bits; above it the number of the surface in this frame.
     set: u32,
-    /// Which pixels are its, by their lots.
-    pub lots: [f32; 2],
     /// How far above the place that is seen light falls on it.
-    pub stand_off: f32,
+    stand_off: f32,
+    /// How far it has moved apart from the one with which it takes the place of a coarser one.
+    apart: f32,
+    /// Which pixels are its, by their lots, in shares of 65,535.
+    lots: [u16; 2],
     /// What of it is drawn.
-    pub trim: Trim,
+    trim: Trim,
 }
 
 /// Bits of the exponent of a count.
@@ -66,17 +69,19 @@ impl SliceRecord {
     pub(crate) fn new(
         facet: u32,
         slice: i32,
-        count: u32,
-        lots: [f32; 2],
+        drawn: &DrawnSlices,
         stand_off: f32,
         trim: Trim,
     ) -> Self {
         Self {
             facet,
             slice,
-            set: count.ilog2(),
-            lots,
+            set: drawn.count.ilog2(),
             stand_off,
+            apart: drawn.apart,
+            lots: drawn
+                .lots
+                .map(|lot| (lot * f32::from(u16::MAX)).round() as u16),
             trim,
         }
     }
@@ -119,7 +124,8 @@ impl SurfaceRecord {
 pub(crate) fn vertex_buffer() -> VertexBufferLayout {
     let formats = [
         VertexFormat::Uint32x3,
-        VertexFormat::Float32x3,
+        VertexFormat::Float32x2,
+        VertexFormat::Unorm16x2,
         VertexFormat::Unorm16x4,
     ];
     let mut layout = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, formats);
@@ -142,7 +148,14 @@ mod tests {
     #[test]
     fn a_slice_s_count_and_surface_do_not_mix() {
         for count in [1, 2, 256, 1 << 31] {
-            let record = SliceRecord::new(7, -3, count, [0.0, 1.0], 0.0, WHOLE);
+            let drawn = DrawnSlices {
+                count,
+                apart: 1.0,
+                lots: [0.0, 1.0],
+                inside: 0.0,
+            };
+            let record = SliceRecord::new(7, -3, &drawn, 0.0, WHOLE);
+            assert_eq!(record.lots, [0, u16::MAX]);
             let last = MAX_SURFACES as u32 - 1;
             for surface in [0, 1, last] {
                 let set = record.of_surface(surface).set;

@@ -199,28 +199,29 @@ impl SliceSource {
             };
             let chosen = choose_fading(&facet, &self.volume.measure, &from.view, &quality);
             for slices in chosen.into_iter().flatten() {
-                for (count, lots) in slices.sets(fades) {
-                    let range = slice_range(facet.uvs, slices.axis, count);
-                    let most = self.volume.measure.most[slices.axis.index()];
-                    let inner = settings.inner_slices(count, most);
-                    let stand_off = settings.stand_off(slices.inside, slices.thickness, inner);
-                    let record = |slice| {
-                        let trim = if settings.empty_slices {
-                            WHOLE
-                        } else {
-                            let (axis, footprint) = (slices.axis, slices.footprint);
-                            let boxes = &self.volume.boxes;
-                            boxes.trim(facet.uvs, axis, slice, count, footprint)?
-                        };
-                        let facet = first + index;
-                        Some(SliceRecord::new(facet, slice, count, lots, stand_off, trim))
-                    };
-                    let list = &mut lists[slices.axis.index()];
-                    if slices.along {
-                        list.extend(range.filter_map(record));
+                let Some(drawn) = slices.drawn(fades) else {
+                    continue;
+                };
+                let axis = slices.axis;
+                let range = slice_range(facet.uvs, axis, drawn.count, drawn.apart);
+                let most = self.volume.measure.most[axis.index()];
+                let inner = settings.inner_slices(drawn.count, most);
+                let stand_off = settings.stand_off(drawn.inside, slices.thickness, inner);
+                let record = |slice| {
+                    let trim = if settings.empty_slices {
+                        WHOLE
                     } else {
-                        list.extend(range.rev().filter_map(record));
-                    }
+                        let boxes = &self.volume.boxes;
+                        boxes.trim(facet.uvs, axis, slice, &drawn, slices.footprint)?
+                    };
+                    let facet = first + index;
+                    Some(SliceRecord::new(facet, slice, &drawn, stand_off, trim))
+                };
+                let list = &mut lists[axis.index()];
+                if slices.along {
+                    list.extend(range.filter_map(record));
+                } else {
+                    list.extend(range.rev().filter_map(record));
                 }
             }
         }

@@ -13,7 +13,8 @@ pub struct TexelStats {
     /// Lists that were made in this frame, of at most 8,192 facets of a surface in a view each. The others are those of
     /// the frame before.
     pub listed: usize,
-    /// Bytes of slices, and of where surfaces are, that were written to the GPU.
+    /// Bytes of slices, and of where surfaces are, that were written to the GPU: those that differ from what was there, in
+    /// blocks of 4,096 bytes.
     pub list_bytes: usize,
     /// Bytes of facets that changed and were written to the GPU; those of new surfaces are written besides.
     pub uploaded_bytes: usize,

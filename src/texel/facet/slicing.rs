@@ -4,6 +4,9 @@
 //! The lines of slice k stand where u (or v) is (k + ½)/N, for all whole k: beyond 0 to N − 1 they are those of the
 //! next copies of the texture, which show slice k mod N. Mirrored and rotated textures need nothing more, for all is
 //! done in texture coordinates.
+//!
+//! Where the number doubles nothing jumps: the two slices that take the place of one begin where that was, and move apart to where
+//! they belong (as the vertices of H. Hoppe, *Progressive Meshes*, 1996, §3.2, move in a geomorph).
 
 use std::ops::Range;
 
@@ -19,9 +22,9 @@ fn along(axis: SliceAxis, uv: Vec2) -> f32 {
     }
 }
 
-/// The numbers k of all slices that cut a facet, for N slices a texel: along u or v those of which
-/// [`slice_line`] finds a line, along w all N. Numbers beyond those of an `i32` are left out.
-pub fn slice_range(uvs: [Vec2; 3], axis: SliceAxis, count: u32) -> Range<i32> {
+/// The numbers k of all slices that cut a facet, for N slices a texel, which are where [`slice_position`] has them: along u or
+/// v those of which [`slice_line`] finds a line, along w all N. Numbers beyond those of an `i32` are left out.
+pub fn slice_range(uvs: [Vec2; 3], axis: SliceAxis, count: u32, apart: f32) -> Range<i32> {
     if axis == SliceAxis::W {
         return 0..count as i32;
     }
@@ -29,13 +32,21 @@ pub fn slice_range(uvs: [Vec2; 3], axis: SliceAxis, count: u32) -> Range<i32> {
     let (low, high) = (a.min(b).min(c), a.max(b).max(c));
     // As slice_line decides: the first position above the least, up to the greatest.
     let n = count as f32;
-    let first_above = |value: f32| ((value * n - 0.5).floor() as i32).saturating_add(1);
+    let first_above = |value: f32| {
+        // Pair by pair.
+        let even = (0.5 * value * n).floor() * 2.0;
+        let is_above = |odd: f32| even + 1.0 + (odd - 0.5) * apart > value * n;
+        let below = [0.0, 1.0].into_iter().take_while(|&odd| !is_above(odd));
+        (even as i32).saturating_add(below.count() as i32)
+    };
     first_above(low)..first_above(high).max(first_above(low))
 }
 
-/// Where u or v of slice k of N is.
-pub fn slice_position(slice: i32, count: u32) -> f32 {
-    (slice as f32 + 0.5) / count as f32
+/// Where u, v or w of slice k of N is, if two that lie in one of half as many slices are moved so far `apart` from the middle
+/// of that one: 0 to 1, at which they are all evenly spaced.
+pub fn slice_position(slice: i32, count: u32, apart: f32) -> f32 {
+    let (even, odd) = (slice & !1, slice & 1);
+    (even as f32 + 1.0 + (odd as f32 - 0.5) * apart) / count as f32
 }
 
 /// The line in which u (or v) has the value `position` on a facet: the weights of its two ends, none if it does not

@@ -45,8 +45,8 @@ proptest! {
         for (axis, other) in [(SliceAxis::U, Vec2::Y), (SliceAxis::V, Vec2::X)] {
             let facet = Facet { uvs, ..facet() };
             let mut area = 0.0;
-            for slice in slice_range(uvs, axis, count) {
-                let [a, b] = slice_line(uvs, axis, slice_position(slice, count)).expect("in range");
+            for slice in slice_range(uvs, axis, count, 1.0) {
+                let [a, b] = slice_line(uvs, axis, slice_position(slice, count, 1.0)).expect("in range");
                 area += (facet.uv(b) - facet.uv(a)).dot(other).abs() / count as f32;
             }
             // The midpoint rule on a length that is linear between corners: exact but for the three slices with
@@ -57,17 +57,29 @@ proptest! {
     }
 
     #[test]
-    fn the_range_has_all_slices_that_cut_and_no_other(uvs in mapping(), exponent in 0..7u32) {
+    fn the_range_has_all_slices_that_cut_and_no_other(uvs in mapping(), exponent in 0..7u32, apart in 0.0..=1.0f32) {
         let count = 1 << exponent;
         for axis in [SliceAxis::U, SliceAxis::V] {
-            let range = slice_range(uvs, axis, count);
+            let range = slice_range(uvs, axis, count, apart);
             let most = 3 * count as i32 + 2;
             for slice in -most..most {
-                let position = slice_position(slice, count);
+                let position = slice_position(slice, count, apart);
                 let meets = slice_line(uvs, axis, position).is_some();
                 prop_assert_eq!(meets, range.contains(&slice), "{}", slice);
             }
         }
+    }
+
+    #[test]
+    fn pairs_begin_where_the_slice_of_half_as_many_is_and_end_evenly_spaced(slice in -300..300i32, exponent in 1..8u32) {
+        let count = 1 << exponent;
+        let whole = slice_position(slice.div_euclid(2), count / 2, 1.0);
+        prop_assert_eq!(slice_position(slice, count, 0.0), whole);
+        // The layer of the slice, of which it is in the middle.
+        let even = (slice as f32 + 0.5) / count as f32;
+        prop_assert_eq!(slice_position(slice, count, 1.0), even);
+        let between = slice_position(slice, count, 0.25);
+        prop_assert!((between - (0.75 * whole + 0.25 * even)).abs() <= f32::EPSILON * whole.abs().max(1.0));
     }
 
     #[test]
@@ -301,6 +313,6 @@ fn the_sphere_holds_the_whole_prism() {
 #[test]
 fn the_numbers_of_slices_stop_where_an_integer_does() {
     let uvs = [1e12, 2e12, -1e12].map(Vec2::splat);
-    let range = slice_range(uvs, SliceAxis::U, 64);
-    assert_eq!(range, i32::MIN + 1..i32::MAX);
+    let range = slice_range(uvs, SliceAxis::U, 64, 1.0);
+    assert_eq!(range, i32::MIN + 2..i32::MAX);
 }

@@ -3,6 +3,7 @@
 use bevy::math::{Vec2, Vec3};
 
 use super::super::axis::SliceAxis;
+use super::super::choose::DrawnSlices;
 use super::super::facet::{slice_line, slice_position};
 use super::SliceSets;
 
@@ -78,9 +79,10 @@ impl SliceBoxes {
         uvs: [Vec2; 3],
         axis: SliceAxis,
         slice: i32,
-        count: u32,
+        drawn: &DrawnSlices,
         footprint: Vec2,
     ) -> Option<Trim> {
+        let DrawnSlices { count, apart, .. } = *drawn;
         let boxes = &self.axes[axis.index()];
         let covered = (footprint * boxes.size).length();
         // Samplers round the level; half a level more is for what corners tell too little of the facet.
@@ -95,7 +97,7 @@ impl SliceBoxes {
             repeated(low.y, high.y, shown.low.y, shown.high.y)?;
             return Some(WHOLE);
         }
-        let ends = slice_line(uvs, axis, slice_position(slice, count))?;
+        let ends = slice_line(uvs, axis, slice_position(slice, count, apart))?;
         let column = |b: Vec3| {
             let uv = uvs[0] * b.x + uvs[1] * b.y + uvs[2] * b.z;
             if axis == SliceAxis::U { uv.y } else { uv.x }
@@ -192,6 +194,15 @@ mod tests {
         SliceSets::new(&volume.expect("it is in range").volume, 256)
     }
 
+    fn drawn(count: u32) -> DrawnSlices {
+        DrawnSlices {
+            count,
+            apart: 1.0,
+            lots: [0.0, 1.0],
+            inside: 0.0,
+        }
+    }
+
     #[test]
     fn values_are_those_between_the_first_and_the_last_copy() {
         let cases = [
@@ -220,6 +231,7 @@ mod tests {
             upright in 0..3usize,
             level in 0..5usize,
             seed in 0..1000u32,
+            apart in 0.0..=1.0f32,
         ) {
             thread_local!(static SETS: (SliceSets, SliceBoxes) = {
                 let sets = sets();
@@ -230,14 +242,19 @@ mod tests {
                 let axis = SliceAxis::ALL[upright];
                 let set = sets.get(axis, 1 << exponent);
                 let uvs = uvs.map(Vec2::from);
-                let range = crate::texel::facet::slice_range(uvs, axis, set.count);
+                let drawn = DrawnSlices {
+                    apart: if set.count > 1 { apart } else { 1.0 },
+                    ..drawn(set.count)
+                };
+                let apart = drawn.apart;
+                let range = crate::texel::facet::slice_range(uvs, axis, set.count, apart);
                 if range.is_empty() {
                     return Ok(());
                 }
                 let slice = range.start + (seed % range.len() as u32) as i32;
                 let size = boxes.axes[upright].size;
                 let footprint = Vec2::new((1u32 << level) as f32 / size.x, 0.0);
-                let trim = boxes.trim(uvs, axis, slice, set.count, footprint);
+                let trim = boxes.trim(uvs, axis, slice, &drawn, footprint);
                 let shown = &set.levels[level.min(set.levels.len() - 1)];
                 let number = slice as u32 & (set.count - 1);
                 // Places of the slice on the facet.
@@ -248,7 +265,7 @@ mod tests {
                             let (s, t) = if s + t > 1.0 { (1.0 - s, 1.0 - t) } else { (s, t) };
                             (uvs[0] + (uvs[1] - uvs[0]) * s + (uvs[2] - uvs[0]) * t, trim.is_some())
                         } else {
-                            let Some(ends) = slice_line(uvs, axis, slice_position(slice, set.count)) else {
+                            let Some(ends) = slice_line(uvs, axis, slice_position(slice, set.count, apart)) else {
                                 return Ok(());
                             };
                             let b = ends[0] * (1.0 - s) + ends[1] * s;
@@ -281,7 +298,7 @@ mod tests {
         let uvs = [Vec2::ZERO, Vec2::X, Vec2::Y];
         let drawn = |footprint: f32| -> f32 {
             let trims = (0..32).filter_map(|slice| {
-                boxes.trim(uvs, SliceAxis::U, slice, 32, Vec2::splat(footprint))
+                boxes.trim(uvs, SliceAxis::U, slice, &drawn(32), Vec2::splat(footprint))
             });
             trims
                 .map(|[from, to, ..]| f32::from(to - from) / 65_535.0)

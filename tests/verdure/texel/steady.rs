@@ -37,3 +37,42 @@ fn nothing_pops_where_changes_fade() {
     // Motion itself differs by half as much again over the flight, and dither adds to it while it goes on.
     assert!(fading < 3.0, "{fading}");
 }
+
+/// The largest change between neighbouring pictures of an eye that stands still, while it is content with ever fewer slices, down
+/// to half as many: where nothing moves only what pops, or moves apart, changes.
+fn coarsen(fade: bool) -> f64 {
+    let mut studio = Studio::default();
+    let surface = cover_default(&mut studio, unlit());
+    let eye = Vec3::new(0.5, 0.5, -0.5) + Vec3::new(0.9, 1.4, 1.6);
+    let pictures: Vec<Vec<u8>> = (0..=70)
+        .map(|i| {
+            // However deep one would see.
+            let quality = TexelQuality {
+                depth: 0.01,
+                pixels: 6.0 * 1.01f32.powi(i),
+                ..default()
+            };
+            let settings = TexelSettings {
+                quality,
+                fade,
+                ..unlit()
+            };
+            studio.world().entity_mut(surface).insert(settings);
+            studio.headless.step();
+            studio.photograph(&shot(eye), BACKGROUND).rgb_bytes()
+        })
+        .collect();
+    let changes = pictures.windows(2).map(|pair| {
+        let both = pair[0].iter().zip(&pair[1]);
+        both.map(|(a, b)| f64::from(a.abs_diff(*b))).sum::<f64>() / pair[0].len() as f64
+    });
+    changes.fold(0.0, f64::max)
+}
+
+#[test]
+fn where_counts_double_slices_move_apart_and_do_not_pop() {
+    let (moving, popping) = (coarsen(true), coarsen(false));
+    println!("slices that move {moving:.4}, that pop {popping:.4}");
+    // A step is a ninth of the way that they move, and outlines go pixel by pixel.
+    assert!(popping > 3.0 * moving && moving > 0.0, "{popping} {moving}");
+}

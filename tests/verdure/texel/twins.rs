@@ -20,7 +20,7 @@ fn work(i: u32) {
     let baked = vector(i, 30u);
     let w = cases[i][33];
     let axis = u32(cases[i][34]);
-    let position = slice_position(i32(cases[i][35]), u32(cases[i][36]));
+    let position = slice_position(i32(cases[i][35]), u32(cases[i][36]), cases[i][37]);
     put(i, 0u, slice_line_end(facet.uvs, axis, position, false));
     put(i, 3u, slice_line_end(facet.uvs, axis, position, true));
     put(i, 24u, slice_line_point(facet.uvs, axis, position, 0.3));
@@ -48,6 +48,7 @@ struct Case {
     axis: SliceAxis,
     slice: i32,
     count: u32,
+    apart: f32,
 }
 
 impl Case {
@@ -67,7 +68,8 @@ impl Case {
             };
             let axis = SliceAxis::ALL[(dice.roll() * 1.99) as usize];
             let count = 1 << (dice.roll() * 8.99) as u32;
-            let range = slice_range(facet.uvs, axis, count);
+            let apart = dice.roll();
+            let range = slice_range(facet.uvs, axis, count, apart);
             if facet.check().is_err() || range.is_empty() {
                 continue;
             }
@@ -81,6 +83,7 @@ impl Case {
                 axis,
                 slice: range.start + (dice.roll() * range.len() as f32) as i32,
                 count,
+                apart,
             };
         }
     }
@@ -95,7 +98,8 @@ impl Case {
             floats.extend(vector.to_array());
         }
         let axis = self.axis.index() as f32;
-        floats.extend([self.w, axis, self.slice as f32, self.count as f32]);
+        floats.extend([self.w, axis, self.slice as f32]);
+        floats.extend([self.count as f32, self.apart]);
         floats.resize(44, 0.0);
         floats.try_into().expect("44 floats")
     }
@@ -111,7 +115,7 @@ fn shaders_place_slices_as_rust_does() {
     for (case, found) in cases.iter().zip(results) {
         let vector = |at: usize| Vec3::from_slice(&found[at..at + 3]);
         let facet = &case.facet;
-        let position = slice_position(case.slice, case.count);
+        let position = slice_position(case.slice, case.count, case.apart);
         assert_eq!(found[23], position);
         let ends = slice_line(facet.uvs, case.axis, position);
         let ends = ends.expect("slices of the range meet the facet");

@@ -85,8 +85,10 @@ fn uv_along(axis: u32, uv: vec2<f32>) -> f32 {
     return select(uv.y, uv.x, axis == 0u);
 }
 
-fn slice_position(slice: i32, count: u32) -> f32 {
-    return (f32(slice) + 0.5) / f32(count);
+fn slice_position(slice: i32, count: u32, apart: f32) -> f32 {
+    let even = slice & ~1;
+    let odd = slice & 1;
+    return (f32(even) + 1.0 + (f32(odd) - 0.5) * apart) / f32(count);
 }
 
 // The weights of one end of the line in which u (or v) has the value `position`: on the first, or the last, edge that it

@@ -2,7 +2,7 @@
 
 // What is seen in the layer of a slice.
 //
-// A slice shows what is in its layer as if all of it were in the middle, up to h/2·tan(a) aside of where it is. Which slices
+// A slice shows what is in its layer as if all of it were where the slice is, mostly the middle, up to h/2·tan(a) aside of that. Which slices
 // are where does with that; colours, normals and shadows, which change from pixel to pixel, would shimmer. So what is seen is
 // looked for along the view in the finer slices of the same layer, as relief maps are (F. Policarpo et al., *Real-Time Relief
 // Mapping on Arbitrary Polygonal Surfaces*, 2005): once a pixel, after depth is drawn. Sets of slices are nested, so that it
@@ -30,7 +30,6 @@ fn look_inside(in: Varying, own: vec4<f32>) -> Inner {
     let slice = in.layer + 1u - count;
     let most = (textureNumLayers(normal_texture) + 1u) / 2u;
     let finest = min(most, count * texels.inner_slices);
-    let middle = (f32(slice) + 0.5) / f32(count);
     // Columns, rows, and across slices.
     var way = in.view_in_volume;
     if AXIS == 0u {
@@ -45,11 +44,11 @@ fn look_inside(in: Varying, own: vec4<f32>) -> Inner {
     while half_count < finest {
         half_count *= 2u;
         let near = 2u * number + nearer;
-        let at = in.uv + aside(way, near, half_count, middle);
+        let at = in.uv + aside(way, near, half_count, in.place);
         let alpha = textureSampleLevel(normal_texture, level_sampler, at, half_count - 1u + near, level).a;
         number = select(near ^ 1u, near, is_in_volume(at) && alpha >= 0.5);
     }
-    let at = in.uv + aside(way, number, half_count, middle);
+    let at = in.uv + aside(way, number, half_count, in.place);
     let found = textureSampleLevel(normal_texture, level_sampler, at, half_count - 1u + number, level);
     let is_there = is_in_volume(at) && found.a >= 0.5;
     let uv = select(in.uv, at, is_there);
@@ -57,18 +56,18 @@ fn look_inside(in: Varying, own: vec4<f32>) -> Inner {
     return Inner(
         textureSampleLevel(color_texture, slice_sampler, uv, layer, level).rgb,
         select(own.xyz, found.xyz, is_there),
-        select(0.0, reach(way, number, half_count, middle), is_there),
+        select(0.0, reach(way, number, half_count, in.place), is_there),
     );
 }
 
-// How far along the view a slice is from the middle of a layer.
-fn reach(way: vec3<f32>, number: u32, count: u32, middle: f32) -> f32 {
-    return ((f32(number) + 0.5) / f32(count) - middle) / way.z;
+// How far along the view a slice is from one that is drawn at a place.
+fn reach(way: vec3<f32>, number: u32, count: u32, place: f32) -> f32 {
+    return ((f32(number) + 0.5) / f32(count) - place) / way.z;
 }
 
 // How far aside, in columns and rows. Seen along themselves slices say nothing of what is beside.
-fn aside(way: vec3<f32>, number: u32, count: u32, middle: f32) -> vec2<f32> {
-    return clamp(way.xy * reach(way, number, count, middle), vec2(-0.5), vec2(0.5));
+fn aside(way: vec3<f32>, number: u32, count: u32, place: f32) -> vec2<f32> {
+    return clamp(way.xy * reach(way, number, count, place), vec2(-0.5), vec2(0.5));
 }
 
 // Rows of upright slices are heights, which end.

@@ -23,10 +23,13 @@ struct Corner {
     // The facet, the number of the slice, and, of how many a texel it is one, the exponent, in the lowest 5 bits, below the
     // number of the surface.
     @location(0) slice: vec3<u32>,
-    // Which pixels are its, from one lot to another, and how far above the place that is seen light falls on it.
-    @location(1) look: vec3<f32>,
+    // How far above the place that is seen light falls on it, and how far apart it has moved from the one with which it takes the
+    // place of a coarser one.
+    @location(1) look: vec2<f32>,
+    // Which pixels are its, from one lot to another.
+    @location(2) lots: vec2<f32>,
     // What of it is drawn: from where to where along its line, and up its height vectors, from 0 to 1.
-    @location(2) trim: vec4<f32>,
+    @location(3) trim: vec4<f32>,
 }
 
 struct Varying {
@@ -46,6 +49,8 @@ struct Varying {
 #ifdef TEXEL_INNER
     // The way of the view in the volume: changes of u, v and w.
     @location(11) view_in_volume: vec3<f32>,
+    // Where, across slices, it is in a texel.
+    @location(12) @interpolate(flat) place: f32,
 #endif
 #ifdef MOTION_VECTOR_PREPASS
     @location(7) previous_world_position: vec3<f32>,
@@ -137,6 +142,8 @@ fn place_corner(in: Corner) -> Varying {
     let facet = facet_from_eye(in.slice.x, turn, origin);
     let slice = bitcast<i32>(in.slice.y);
     let count = 1u << (in.slice.z & 31u);
+    let apart = in.look.y;
+    let position = slice_position(slice, count, apart);
     // Once round, in the order of a strip of triangles.
     let corner = in.corner ^ (in.corner >> 1u);
     var b: vec3<f32>;
@@ -144,17 +151,16 @@ fn place_corner(in: Corner) -> Varying {
     if AXIS == 2u {
         // A triangle: the fourth corner is the third.
         b = vec3(f32(corner == 0u), f32(corner == 1u), f32(corner >= 2u));
-        w = slice_position(slice, count);
+        w = position;
     } else {
         // A line, from the surface to the top.
-        let position = slice_position(slice, count);
         b = slice_line_point(facet.uvs, AXIS, position, select(in.trim.x, in.trim.y, corner == 1u || corner == 2u));
         w = select(in.trim.z, in.trim.w, corner >= 2u);
     }
     let uv = facet_uv(facet, b);
     out.uv = vec2(select(uv.x, uv.y, AXIS == 0u), select(w, uv.y, AXIS == 2u));
-    out.lots = in.look.xy;
-    out.stand_off = in.look.z;
+    out.lots = in.lots;
+    out.stand_off = in.look.x;
     out.flags = surface.flags.x;
     // Copies of the texture show the same slices; counts are powers of two.
     out.layer = count - 1u + (in.slice.y & (count - 1u));
@@ -191,6 +197,7 @@ fn place_corner(in: Corner) -> Varying {
     out.normal_from_w = to_world[2];
 #ifdef TEXEL_INNER
     out.view_in_volume = in_frame(frame, view_direction(from_eye));
+    out.place = slice_position(slice & i32(count - 1u), count, apart);
 #endif
 #endif
     return out;
