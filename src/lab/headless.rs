@@ -44,6 +44,20 @@ impl Headless {
         settings: WgpuSettings,
         configure: impl FnOnce(&mut App),
     ) -> Self {
+        Self::build(step, settings, false, configure)
+    }
+
+    /// As [`new`](Self::new), but each frame is drawn while the next one begins, as in games: pictures are of a frame before.
+    pub fn pipelined(step: Duration, configure: impl FnOnce(&mut App)) -> Self {
+        Self::build(step, WgpuSettings::default(), true, configure)
+    }
+
+    fn build(
+        step: Duration,
+        settings: WgpuSettings,
+        is_pipelined: bool,
+        configure: impl FnOnce(&mut App),
+    ) -> Self {
         let mut app = App::new();
         let plugins = DefaultPlugins
             .set(WindowPlugin {
@@ -64,9 +78,13 @@ impl Headless {
                 level: bevy::log::Level::WARN,
                 ..default()
             })
+            .disable::<bevy::winit::WinitPlugin>();
+        let plugins = if is_pipelined {
+            plugins
+        } else {
             // One frame is done before the next begins, so that a picture is of the frame it was asked in.
-            .disable::<PipelinedRenderingPlugin>();
-        let plugins = plugins.disable::<bevy::winit::WinitPlugin>();
+            plugins.disable::<PipelinedRenderingPlugin>()
+        };
         app.add_plugins(plugins)
             .insert_resource(TimeUpdateStrategy::ManualDuration(step))
             .init_resource::<Captured>();

@@ -170,6 +170,9 @@ pub struct Studio {
     figures: Option<(UVec2, RenderTarget)>,
 }
 
+/// How far time goes a frame.
+const FRAME: Duration = Duration::from_millis(16);
+
 /// The background of figures: no depth, no segment.
 const MISS: LinearRgba = LinearRgba::new(-1.0, -1.0, -1.0, -1.0);
 
@@ -182,10 +185,20 @@ impl Default for Studio {
 impl Studio {
     /// A studio with the crate's plugins, and whatever `configure` adds.
     pub fn new(configure: impl FnOnce(&mut App)) -> Self {
-        let mut headless = Headless::new(Duration::from_millis(16), |app| {
+        Self::with(Headless::new(FRAME, |app| {
             app.add_plugins(VerdurePlugin);
             configure(app);
-        });
+        }))
+    }
+
+    /// A studio whose frames are [drawn while the next one begins](Headless::pipelined).
+    pub fn pipelined() -> Self {
+        Self::with(Headless::pipelined(FRAME, |app| {
+            app.add_plugins(VerdurePlugin);
+        }))
+    }
+
+    fn with(mut headless: Headless) -> Self {
         let camera = headless
             .world()
             .spawn((

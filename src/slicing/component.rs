@@ -89,7 +89,7 @@ pub enum Composition {
     Blended,
     /// Each pixel of a slice is there or not, by chance, as often as it is opaque (C. Wyman, M. McGuire, *Hashed Alpha
     /// Testing*, I3D 2017): no order, depth is written, so that prepasses and deferred rendering see the crown. Grainy
-    /// without temporal anti-aliasing.
+    /// without temporal anti-aliasing; for cameras whose view is jittered for that, chance is another in each frame.
     Hashed,
 }
 

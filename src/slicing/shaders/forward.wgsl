@@ -5,7 +5,7 @@
     pbr_types,
 }
 #import bevy_pbr::mesh_bindings::mesh
-#import bevy_verdure::slicing::place::{Corner, Varying, place_corner, is_orthographic}
+#import bevy_verdure::slicing::place::{Corner, Varying, frame, place_corner, is_orthographic}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
 #import bevy_verdure::slicing::lots::{cells, footprint, lot_of}
 #import bevy_verdure::lighting::simple::{Leaf, simple_light, transmission_of}
@@ -29,7 +29,7 @@ fn fragment(in: Varying) -> @location(0) vec4<f32> {
 #endif
     var seen = slice_color(in);
 #ifdef CROWN_HASHED
-    let is_seen = lot_of(in.uv, cells(footprint(in.uv)), in.lot) < seen.a;
+    let is_seen = lot_of(in.uv, cells(footprint(in.uv)), in.lot, frame()) < seen.a;
     seen.a = 1.0;
 #else
     let is_seen = seen.a >= LEAST;

@@ -12,7 +12,7 @@
 #import bevy_verdure::slicing::cast::facing
 #import bevy_verdure::slicing::seen::{leaning, towards_sun, turned}
 #import bevy_verdure::slicing::parts::{deviation, part_direction, part_turn}
-#import bevy_verdure::slicing::lots::{cells, pcg}
+#import bevy_verdure::slicing::lots::{cells, gathered_frame, pcg}
 #import bevy_verdure::wind::sway
 
 #ifdef VISIBILITY_RANGE_DITHER
@@ -107,6 +107,11 @@ fn local_from_world(instance_index: u32) -> mat3x3<f32> {
 fn tint(tag: u32) -> vec3<f32> {
     let root = unpack4x8unorm(tag).rgb;
     return root * root;
+}
+
+// The frame that lots are drawn for.
+fn frame() -> u32 {
+    return gathered_frame(view.clip_from_world, view.unjittered_clip_from_world, globals.frame_count);
 }
 
 fn is_orthographic() -> bool {

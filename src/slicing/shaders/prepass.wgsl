@@ -3,7 +3,7 @@
 #import bevy_pbr::{mesh_functions, prepass_bindings::previous_view_uniforms}
 #import bevy_pbr::mesh_view_bindings::view
 #import bevy_verdure::slicing::cast::first_leaf
-#import bevy_verdure::slicing::place::{Corner, Varying, place_corner}
+#import bevy_verdure::slicing::place::{Corner, Varying, frame, place_corner}
 #import bevy_verdure::slicing::look::{slice_color, slice_facing}
 #import bevy_verdure::slicing::lots::{cells, footprint, lot_of}
 #ifdef VISIBILITY_RANGE_DITHER
@@ -25,7 +25,8 @@ fn fragment(in: Varying) -> @builtin(frag_depth) f32 {
     visibility_range_dither(in.position, in.dither);
 #endif
     let alpha = slice_color(in).a;
-    let lot = lot_of(in.uv, in.grid, in.lot);
+    // Shadows are not gathered: their lots stay.
+    let lot = lot_of(in.uv, in.grid, in.lot, 0u);
     if lot >= alpha {
         discard;
     }
@@ -43,7 +44,7 @@ fn is_seen(in: Varying) -> bool {
 #ifdef VISIBILITY_RANGE_DITHER
     visibility_range_dither(in.position, in.dither);
 #endif
-    return lot_of(in.uv, cells(footprint(in.uv)), in.lot) < slice_color(in).a;
+    return lot_of(in.uv, cells(footprint(in.uv)), in.lot, frame()) < slice_color(in).a;
 }
 
 #ifdef PREPASS_FRAGMENT

@@ -101,29 +101,37 @@ fn differing<'a>(held: &'a [u8], next: &'a [u8]) -> impl Iterator<Item = Range<u
 mod tests {
     use super::*;
 
-    fn ranges(held: &[u8], next: &[u8]) -> Vec<Range<usize>> {
-        differing(held, next).collect()
+    /// First and end of what is written.
+    fn written(held: &[u8], next: &[u8]) -> Vec<[usize; 2]> {
+        differing(held, next)
+            .map(|range| [range.start, range.end])
+            .collect()
     }
+
+    const NOTHING: [[usize; 2]; 0] = [];
 
     #[test]
     fn only_blocks_that_differ_are_written() {
         let held = vec![0; 5 * BLOCK + 8];
-        assert!(ranges(&held, &held).is_empty());
+        assert_eq!(written(&held, &held), NOTHING);
         let mut next = held.clone();
         next[BLOCK - 1] = 1;
         next[BLOCK] = 1;
         next[3 * BLOCK + 5] = 1;
-        assert_eq!(ranges(&held, &next), [0..2 * BLOCK, 3 * BLOCK..4 * BLOCK]);
+        let both = [[0, 2 * BLOCK], [3 * BLOCK, 4 * BLOCK]];
+        assert_eq!(written(&held, &next), both);
         next[5 * BLOCK] = 1;
-        assert_eq!(ranges(&held, &next)[2], 5 * BLOCK..5 * BLOCK + 8, "the end");
+        let end = [5 * BLOCK, 5 * BLOCK + 8];
+        assert_eq!(written(&held, &next), [both[0], both[1], end]);
     }
 
     #[test]
     fn what_is_longer_is_written_and_what_is_shorter_is_not() {
         let held = vec![7; 2 * BLOCK + 8];
-        assert!(ranges(&held, &held[..BLOCK + 4]).is_empty());
-        assert_eq!(ranges(&held[..BLOCK + 4], &held), [BLOCK..2 * BLOCK + 8]);
-        assert_eq!(ranges(&[], &held), [0..2 * BLOCK + 8]);
-        assert!(ranges(&held, &[]).is_empty());
+        let shorter = &held[..BLOCK + 4];
+        assert_eq!(written(&held, shorter), NOTHING);
+        assert_eq!(written(shorter, &held), [[BLOCK, 2 * BLOCK + 8]]);
+        assert_eq!(written(&[], &held), [[0, 2 * BLOCK + 8]]);
+        assert_eq!(written(&held, &[]), NOTHING);
     }
 }

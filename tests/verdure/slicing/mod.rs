@@ -109,7 +109,7 @@ fn unit(dice: &mut Dice) -> Vec3 {
 }
 
 /// Plants the crown.
-fn plant(studio: &mut Studio, settings: CrownSettings, transform: Transform) -> Entity {
+pub fn plant(studio: &mut Studio, settings: CrownSettings, transform: Transform) -> Entity {
     let world = studio.world();
     let slicing = world.resource_mut::<Assets<Slicing>>().add(CROWN.clone());
     world

@@ -40,7 +40,7 @@ fn deferred_cameras_show_crowns_as_others_do() {
 }
 
 #[test]
-fn temporal_anti_aliasing_keeps_hashed_crowns_where_they_are() {
+fn temporal_anti_aliasing_keeps_hashed_crowns_where_they_are_and_smooths_them() {
     let look = shot(eye(20.0, 10.0, 16.0));
     let blended = studio(UNLIT).0.photograph(&look, Color::WHITE).rgb_bytes();
     let (mut studio, _) = studio(HASHED);
@@ -55,8 +55,8 @@ fn temporal_anti_aliasing_keeps_hashed_crowns_where_they_are() {
     let error = |picture: &[u8]| mean_flip((SIZE.x, SIZE.y), &blended, picture);
     let (plain, gathered) = (error(&plain), error(&gathered));
     println!("from the blended crown: hashed {plain:.4}, gathered over frames {gathered:.4}");
-    // Nothing is smeared or lost. Grain stays, for lots are the same in each frame.
-    assert!(gathered < plain, "{gathered} {plain}");
+    // Nothing is smeared or lost, and grain goes: were lots the same in each frame, nine tenths of the error would stay.
+    assert!(gathered < 0.85 * plain, "{gathered} {plain}");
 }
 
 #[test]

@@ -126,7 +126,7 @@ fn cover(
 }
 
 /// Covers the default square where it is.
-fn cover_default(studio: &mut Studio, settings: TexelSettings) -> Entity {
+pub fn cover_default(studio: &mut Studio, settings: TexelSettings) -> Entity {
     cover(studio, &Square::default(), Transform::IDENTITY, settings)
 }
 
