@@ -1,7 +1,7 @@
 //! Pictures in blocks that a GPU reads as they are: BC3 (S3TC DXT5), four by four pixels in 16 bytes.
 //!
-//! Each block has two colours of 5, 6 and 5 bits with two between them, and two opacities of 8 bits with six between them. The
-//! crate `texpresso` (libsquish) fits the colours to the ends of their principal axis.
+//! Each block has two colours of 5, 6 and 5 bits with two between them, and two opacities of 8 bits with six between them.
+//! The crate `texpresso` (libsquish) fits the colours to the ends of their principal axis.
 
 use texpresso::{Algorithm, COLOUR_WEIGHTS_PERCEPTUAL, ColourWeights, Format, Params};
 

@@ -157,8 +157,8 @@ pub fn light_by_elevation(lab: &mut Lab) -> Result<Chart, String> {
 /// How far eyes are turned from the sun, in degrees of azimuth.
 const TURNS: [f32; 7] = [0.0, 20.0, 40.0, 60.0, 90.0, 135.0, 180.0];
 
-/// The mean light of what covers what is behind, for eyes as high as the sun, turn by turn. The sun goes round, so that no direction
-/// of the tree counts for more.
+/// The mean light of what covers what is behind, for eyes as high as the sun, turn by turn. The sun goes round, so that no
+/// direction of the tree counts for more.
 fn round_the_sun(lab: &mut Lab, drawn: &Drawn, distance: f32, elevation: f32) -> [f64; 7] {
     let crown = planted(lab, drawn, &[Transform::IDENTITY]);
     let all = TURNS.map(|turn| {

@@ -17,9 +17,9 @@ const BILLBOARD: u32 = 1440;
 
 /// The slicing of the defaults, its rivals, and slicings of one level of so many slices each.
 ///
-/// Two rivals have pictures from 31 directions round it or all over, of which the nearest two or three are blended. They stand
-/// where their directions look from, as slices do, so that they are slicings of one slice. The octahedral impostor's turn
-/// to the eye.
+/// Two rivals have pictures from 31 directions round it or all over, of which the nearest two or three are blended. They
+/// stand where their directions look from, as slices do, so that they are slicings of one slice. The octahedral impostor's
+/// turn to the eye.
 fn ways(lab: &mut Lab, levels: &[u32]) -> Result<Vec<(String, Drawn)>, String> {
     let slices = |count| BakeSettings::default().with_slices(count);
     let views = |orientations| BakeSettings {

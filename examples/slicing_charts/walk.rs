@@ -36,8 +36,8 @@ fn step(lab: &mut Lab, trees: u32, frame: usize) {
     wait_for_gpu(lab.studio.world());
 }
 
-/// What the frame of a group takes above the empty scene's, in milliseconds, on each stretch of the walk that is looked at: the
-/// mean of as many frames that follow one another as the paper takes, or of a few if it is to be quick.
+/// What the frame of a group takes above the empty scene's, in milliseconds, on each stretch of the walk that is looked at:
+/// the mean of as many frames that follow one another as the paper takes, or of a few if it is to be quick.
 fn times(lab: &mut Lab, trees: u32, groups: &[Vec<Entity>]) -> Vec<Vec<f64>> {
     let frames = if lab.quick { 4 } else { 20 };
     let mut times = vec![Vec::new(); groups.len()];

@@ -1,5 +1,5 @@
-//! Surfaces covered with volumes: the paper's scenes (§6), and those that move, by their mesh, their height vectors or volumes by
-//! turns.
+//! Surfaces covered with volumes: the paper's scenes (§6), and those that move, by their mesh, their height vectors or
+//! volumes by turns.
 //!
 //! ```text
 //! cargo run --example texels -- meadow

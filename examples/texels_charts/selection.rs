@@ -20,12 +20,13 @@ pub fn against_settings(lab: &Lab) -> Result<Chart, String> {
     let mut stand = lab.open(scene)?;
     stand.multisample();
     let mut series = Vec::new();
-    let (depths, pixels): (&[f32], &[f32]) = if lab.quick {
-        (&[], &[0.5, 0.75, 0.95, 2.0])
-    } else {
-        (&[0.25, 1.0, 2.0], &[0.25, 0.5, 0.75, 0.95, 2.0, 4.0])
-    };
     let default_quality = TexelQuality::default();
+    let usual = default_quality.pixels;
+    let (depths, pixels): (&[f32], &[f32]) = if lab.quick {
+        (&[], &[0.5, 0.75, usual, 2.0])
+    } else {
+        (&[0.25, 1.0, 2.0], &[0.25, 0.5, 0.75, usual, 2.0, 4.0])
+    };
     for (name, lighting) in LIGHTS {
         let shot = lab.shot(scene, 1.0);
         let whole = Whole::of(&mut stand, shot, lighting);

@@ -1,5 +1,6 @@
 //! A rival of slicing: a crossed pair of billboards, baked from the same crown and made well: trimmed, with normals of the
-//! leaves, and with mip levels whose masks cover as much as the finest. They are lit by the whole of Bevy's `StandardMaterial`.
+//! leaves, and with mip levels whose masks cover as much as the finest. They are lit by the whole of Bevy's
+//! `StandardMaterial`.
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::{Image, ImageSampler};
@@ -21,7 +22,8 @@ const MASK: f32 = 0.5;
 /// A flat picture of a crown: its mesh and its material.
 pub type Billboard = (Handle<Mesh>, Handle<StandardMaterial>);
 
-/// Bakes and adds a crossed pair of billboards of so many pixels a side, 16 to 2048. What is below or above is taken for the nearest.
+/// Bakes and adds a crossed pair of billboards of so many pixels a side, 16 to 2048. What is below or above is taken for the
+/// nearest.
 ///
 /// # Errors
 /// When the crown cannot be baked, as [`bake()`](crate::slicing::bake()) says.
@@ -78,8 +80,8 @@ pub fn add_billboards(
     Ok(pair)
 }
 
-/// A slicing with pictures of another size, no larger: each pixel is the mean of those that it covers, by how much of them it does; of
-/// colours and normals by alpha too.
+/// A slicing with pictures of another size, no larger: each pixel is the mean of those that it covers, by how much of them
+/// it does; of colours and normals by alpha too.
 fn resized(slicing: Slicing, side: u32) -> Slicing {
     let from = slicing.shape().pixels;
     if side == from {

@@ -47,7 +47,8 @@ impl Headless {
         Self::build(step, settings, false, configure)
     }
 
-    /// As [`new`](Self::new), but each frame is drawn while the next one begins, as in games: pictures are of a frame before.
+    /// As [`new`](Self::new), but each frame is drawn while the next one begins, as in games: pictures are of a frame
+    /// before, and the render world is out of reach.
     pub fn pipelined(step: Duration, configure: impl FnOnce(&mut App)) -> Self {
         Self::build(step, WgpuSettings::default(), true, configure)
     }

@@ -3,6 +3,7 @@
 use core::time::Duration;
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
+use std::time::Instant;
 
 use bevy::asset::io::{AssetSourceId, ErasedAssetReader};
 use bevy::asset::{AssetPath, handle_internal_asset_events};
@@ -13,6 +14,9 @@ use bevy::tasks::{block_on, futures_lite::StreamExt};
 /// Where shaders are that are built into a program.
 const SOURCE: &str = "embedded";
 
+/// How long a shader may take to be read. Machines may be busy.
+const PATIENCE: Duration = Duration::from_secs(300);
+
 /// The shaders built into a program, which are kept.
 #[derive(Resource)]
 struct Shaders(
@@ -21,6 +25,9 @@ struct Shaders(
 
 /// Loads all shaders that are built into the program, and waits for them. Else each would be read when it is first wanted,
 /// behind the frames, and how many of these are without what it draws would be up to the machine's load.
+///
+/// # Panics
+/// If one is neither read nor refused in five minutes.
 pub(super) fn load_shaders(world: &mut World) {
     let Some(server) = world.get_resource::<AssetServer>().cloned() else {
         return;
@@ -36,7 +43,13 @@ pub(super) fn load_shaders(world: &mut World) {
         let state = server.load_state(shader);
         state.is_loaded() || state.is_failed()
     };
-    while !shaders.iter().all(is_settled) {
+    let patience = Instant::now() + PATIENCE;
+    while let Some(waiting) = shaders.iter().find(|shader| !is_settled(shader)) {
+        assert!(
+            Instant::now() < patience,
+            "no shader {:?} after {PATIENCE:?}",
+            waiting.path()
+        );
         handle_internal_asset_events(world);
         sleep(Duration::from_millis(1));
     }

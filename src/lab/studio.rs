@@ -191,7 +191,8 @@ impl Studio {
         }))
     }
 
-    /// A studio whose frames are [drawn while the next one begins](Headless::pipelined).
+    /// A studio whose frames are [drawn while the next one begins](Headless::pipelined). What it asks of the render world
+    /// panics.
     pub fn pipelined() -> Self {
         Self::with(Headless::pipelined(FRAME, |app| {
             app.add_plugins(VerdurePlugin);

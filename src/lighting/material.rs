@@ -15,8 +15,8 @@ use bevy::shader::ShaderRef;
 use super::{PlantLighting, SceneLighting, SceneLights};
 use crate::pipeline::{define, embedded_shader, names};
 
-/// A `StandardMaterial` whose light is a [`PlantLighting`]: for trunks and other solid parts of a plant, which then are lit as
-/// its crown is, at the crown's cost.
+/// A `StandardMaterial` whose light is a [`PlantLighting`]: for trunks and other solid parts of a plant, which then are lit
+/// as its crown is, at the crown's cost.
 ///
 /// ```
 /// # use bevy::prelude::*;
@@ -30,9 +30,9 @@ pub type PlantMaterial = ExtendedMaterial<StandardMaterial, LitAsPlant>;
 /// What lights a [`PlantMaterial`]. Works where a plugin of this crate is that draws crowns or texels.
 ///
 /// * [`PlantLighting::Full`]: as the `StandardMaterial` alone would be.
-/// * [`PlantLighting::Simple`], the default: of the material count the base colour with its texture, vertex colours, the alpha
-///   mode, `double_sided` and `diffuse_transmission`; normal maps, gloss and emission do not. Lit in full where the scene has lights that it leaves out,
-///   as [`PlantLighting`] has it.
+/// * [`PlantLighting::Simple`], the default: of the material count the base colour with its texture, vertex colours, the
+///   alpha mode, `double_sided` and `diffuse_transmission`; normal maps, gloss and emission do not. Lit in full where the
+///   scene has lights that it leaves out, as [`PlantLighting`] has it.
 /// * [`PlantLighting::Unlit`]: the same, without light.
 ///
 /// Shadows and prepasses are the `StandardMaterial`'s own. In the deferred pass, light is Bevy's.

@@ -3,10 +3,11 @@
 /// The mean of (1 - `transmission`) max(n·l, 0) + `transmission` max(-n·l, 0) over unit normals n, for a light from l: as
 /// [`PlantLighting::Simple`](super::PlantLighting::Simple) lights a pixel in which normals differ.
 ///
-/// `cosine`, from -1 to 1, is n·l of the normals' mean, which is the shorter the more they differ, and `spread` is one less the
-/// square of that mean's length: 0 of a single normal, 1 where they point everywhere. The mean of |n·l| is taken for
-/// √(cosine² + spread/4), which is right for a single normal and for normals in all directions. `transmission`, from 0 to 1, is
-/// the share of the light that comes through from behind: 0 of what is solid, 0.5 of a leaf that looks alike from both sides.
+/// `cosine`, from -1 to 1, is n·l of the normals' mean, which is the shorter the more they differ, and `spread` is one less
+/// the square of that mean's length: 0 of a single normal, 1 where they point everywhere. The mean of |n·l| is taken for
+/// √(cosine² + spread/4), which is right for a single normal and for normals in all directions. `transmission`, from 0 to 1,
+/// is the share of the light that comes through from behind: 0 of what is solid, 0.5 of a leaf that looks alike from both
+/// sides.
 pub fn mean_cosine(cosine: f32, spread: f32, transmission: f32) -> f32 {
     0.5 * ((1.0 - 2.0 * transmission) * cosine + (cosine * cosine + 0.25 * spread).sqrt())
 }
@@ -60,7 +61,8 @@ mod tests {
                 }
                 let exact = sum / (STEPS * STEPS) as f32;
                 let found = mean_cosine(mean * cos, 1.0 - mean * mean, 0.0);
-                // The mean of |n·l| is at most that far from the root for a half sphere, seen from its top: (√0.4375 − 0.5)/2.
+                // The mean of |n·l| is at most that far from the root for a half sphere, seen from its top: (√0.4375 −
+                // 0.5)/2.
                 assert!(
                     (found - exact).abs() < 0.085,
                     "{half_angle} {tilt}: {found} {exact}"

@@ -4,11 +4,11 @@ use core::ops::Range;
 
 use bevy::camera::visibility::VisibilityRange;
 
-/// For a crown whose mesh is at hand: the ranges of the mesh and of the [`SlicedCrown`](super::SlicedCrown), which fade into one another while the eye
-/// comes from `margin.end` to `margin.start` metres from where both entities are: pixel by pixel, each is of one or of the
-/// other, shadows too. Both entities must be at the same place. Metres are the world's; 8 to 12 suits a tree of the
-/// paper's, whose slices show from about 10 m on. A margin that is not finite, or starts above its end or below 0, is cut
-/// to one that is.
+/// For a crown whose mesh is at hand: the ranges of the mesh and of the [`SlicedCrown`](super::SlicedCrown), which fade into
+/// one another while the eye comes from `margin.end` to `margin.start` metres from where both entities are: pixel by pixel,
+/// each is of one or of the other, shadows too. Both entities must be at the same place. Metres are the world's; 8 to 12
+/// suits a tree of the paper's, whose slices show from about 10 m on. A margin that is not finite, or starts above its end
+/// or below 0, is cut to one that is.
 ///
 /// ```
 /// # use bevy::prelude::*;

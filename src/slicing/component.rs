@@ -60,20 +60,20 @@ pub struct CrownSettings {
     /// How many of the furthest slices of each slicing are left out, as the paper allows (§2.3). Of each one
     /// slice at least is drawn.
     pub left_out: u32,
-    /// What lights the crown. It is some ten slices deep and lit in each: of what `Full` takes among many trees on a software
-    /// driver, `Simple`, the default, takes two fifths and is hardly told from it, and `Unlit` a quarter.
+    /// What lights the crown. It is some ten slices deep and lit in each: of what `Full` takes among many trees on a
+    /// software driver, `Simple`, the default, takes two fifths and is hardly told from it, and `Unlit` a quarter.
     pub lighting: PlantLighting,
     /// Whether each slice has a frame, as in the paper's Figure 3.
     pub frames: bool,
 }
 
-/// What one discrepancy angle (§2.3) holds for, where the eye is less than 3 radii from a crown's centroid. In the paper's order, over
-/// the sphere, in orthographic views and from further away it is always the whole crown.
+/// What one discrepancy angle (§2.3) holds for, where the eye is less than 3 radii from a crown's centroid. In the paper's
+/// order, over the sphere, in orthographic views and from further away it is always the whole crown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]
 #[reflect(Clone, Debug, Default, PartialEq, Hash)]
 pub enum DiscrepancyAngle {
-    /// For each part of a crown its own (§4), by up to 30° from the middle's, or ¾ of the angle between two orientations. Crowns
-    /// that are near are a draw of their own.
+    /// For each part of a crown its own (§4), by up to 30° from the middle's, or ¾ of the angle between two orientations.
+    /// Crowns that are near are a draw of their own.
     #[default]
     PerPart,
     /// For the whole crown that of its middle, as in the paper.
@@ -94,7 +94,8 @@ pub enum Composition {
 }
 
 /// Multiplies the light that a [`SlicedCrown`] sends back, channel by channel, so that neighbours differ, as the base colour
-/// of a `StandardMaterial` multiplies its texture. From 0 to 1 in linear light, kept as a root of 8 bits; alpha means nothing.
+/// of a `StandardMaterial` multiplies its texture. From 0 to 1 in linear light, kept as a root of 8 bits; alpha means
+/// nothing.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct CrownTint(pub Color);

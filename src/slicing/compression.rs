@@ -9,9 +9,9 @@ use crate::texture_compression::has_whole_blocks;
 /// follow within the frame.
 ///
 /// Compressed in blocks of four by four pixels (BC3) they take a quarter of the memory, and a moment of all cores when they
-/// come into use; those that are gathered to be drawn at once are compressed again behind the frames. They look as much like the
-/// mesh as before, but not like what they were: where leaves of many directions share a block, single pixels are lit otherwise
-/// (`docs/slicing.md` has figures). So it is the user's choice.
+/// come into use; those that are gathered to be drawn at once are compressed again behind the frames. They look as much like
+/// the mesh as before, but not like what they were: where leaves of many directions share a block, single pixels are lit
+/// otherwise (`docs/slicing.md` has figures). So it is the user's choice.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub enum SlicingCompression {

@@ -1,7 +1,7 @@
 //! Gathers slicings into sets, so that crowns of several are one draw.
 //!
-//! A slicing that comes into use is drawn at once, from a set of its own. When none has come, gone or changed for a while, sets
-//! are made of all that may be drawn together, behind the frames; crowns look the same before and after.
+//! A slicing that comes into use is drawn at once, from a set of its own. When none has come, gone or changed for a while,
+//! sets are made of all that may be drawn together, behind the frames; crowns look the same before and after.
 
 use core::time::Duration;
 
@@ -140,8 +140,8 @@ fn live(group: &[Placed]) -> u32 {
     group.iter().map(|placed| placed.layers).sum()
 }
 
-/// Slicings that are to be a set and are not; none where all are as they should be: sets of a kind together, the oldest first,
-/// as many as have room. They stay whole, or each slicing that leaves would move all that came after it.
+/// Slicings that are to be a set and are not; none where all are as they should be: sets of a kind together, the oldest
+/// first, as many as have room. They stay whole, or each slicing that leaves would move all that came after it.
 fn plan(mut slicings: Vec<Placed>, most: impl Fn(SetKind) -> u32) -> Option<Vec<Placed>> {
     slicings.sort_by_key(|placed| (placed.kind, placed.age));
     let mut sets: Vec<Vec<Placed>> = Vec::new();

@@ -9,6 +9,7 @@ use bevy::image::Image;
 use bevy::mesh::MeshTag;
 use bevy::platform::collections::{HashMap, HashSet};
 use bevy::prelude::*;
+use bevy::render::camera::TemporalJitter;
 use bevy::render::renderer::RenderDevice;
 use bevy::render::storage::ShaderBuffer;
 
@@ -17,7 +18,7 @@ use super::component::{CrownSettings, CrownTint, SlicedCrown};
 use super::compression::SlicingCompression;
 use super::gather::Placed;
 use super::limits::MAX_LAYERS;
-use super::material::SlicedCrownMaterial;
+use super::material::{Gathering, SlicedCrownMaterial};
 use super::mesh::crown_mesh;
 use super::near::Nearness;
 use super::set::{CrownSet, SetKind, SetSource};
@@ -339,8 +340,8 @@ pub(crate) fn follow_wind(
     }
 }
 
-/// Tells the materials which lighting the scene's lights call for, and whether its HDR cameras map tones: a camera that does speaks
-/// for all.
+/// Tells the materials which lighting the scene's lights call for, and whether its HDR cameras map tones: a camera that does
+/// speaks for all.
 pub(crate) fn follow_scene(
     library: Res<CrownLibrary>,
     mut materials: ResMut<Assets<SlicedCrownMaterial>>,
@@ -380,6 +381,28 @@ pub(crate) fn follow_sun(
             && material.set.sun.truncate().distance(to_sun) > 0.01
         {
             material.set.sun = to_sun.extend(0.0);
+        }
+    }
+}
+
+/// Tells the materials which cameras gather frames.
+pub(crate) fn follow_cameras(
+    library: Res<CrownLibrary>,
+    mut materials: ResMut<Assets<SlicedCrownMaterial>>,
+    cameras: Query<(&Camera, Has<TemporalJitter>), With<Camera3d>>,
+) {
+    let active = cameras.iter().filter(|(camera, _)| camera.is_active);
+    let (jittered, steady): (Vec<_>, Vec<_>) = active.partition(|(_, is_jittered)| *is_jittered);
+    let gathering = match (jittered.is_empty(), steady.is_empty()) {
+        (true, _) => Gathering::None,
+        (false, false) => Gathering::Some,
+        (false, true) => Gathering::All,
+    };
+    for (_, material) in library.each_material() {
+        if let Some(mut material) = materials.get_mut(material)
+            && material.set.gathering != gathering as u32
+        {
+            material.set.gathering = gathering as u32;
         }
     }
 }

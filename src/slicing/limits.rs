@@ -14,6 +14,6 @@ pub const MAX_SAMPLES: u32 = 4096;
 pub const MAX_LAYERS: usize = 256;
 /// Most pixels of all slices together.
 pub const MAX_PIXELS_TOTAL: u64 = 1 << 26;
-/// Most pixels of slicings that are gathered to be drawn at once, 8 of the default size: their pictures are written to the GPU in
-/// one frame.
+/// Most pixels of slicings that are gathered to be drawn at once, 8 of the default size: their pictures are written to the
+/// GPU in one frame.
 pub(crate) const MAX_SET_PIXELS: u64 = 1 << 25;

@@ -45,6 +45,18 @@ pub(crate) struct SetUniform {
     pub(crate) sun: Vec4,
     pixels: u32,
     left_out: u32,
+    /// Which cameras gather frames: a [`Gathering`].
+    pub(crate) gathering: u32,
+}
+
+/// Which cameras gather frames, as temporal anti-aliasing does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Gathering {
+    None = 0,
+    /// Those whose view is jittered, where each frame tells.
+    Some = 1,
+    /// Even in frames for which the jitter is zero.
+    All = 2,
 }
 
 impl SetUniform {
@@ -55,6 +67,8 @@ impl SetUniform {
             sun: Vec4::ZERO,
             pixels,
             left_out: settings.left_out,
+            // Until `follow_cameras` says otherwise.
+            gathering: Gathering::None as u32,
         }
     }
 }

@@ -25,8 +25,9 @@ pub(crate) fn most_slices(shape: &SlicingShape, slots: usize) -> u32 {
     pairs.max().unwrap_or(shape.levels[0]) * slots as u32
 }
 
-/// The mesh for a slicing at a `place` in its set, of which so many `slots` are drawn at once. Its positions are never drawn: they are corners of a box round the crown, with room to sway,
-/// which tells Bevy the crown's bounds and the middle that it is sorted by.
+/// The mesh for a slicing at a `place` in its set, of which so many `slots` are drawn at once. Its positions are never
+/// drawn: they are corners of a box round the crown, with room to sway, which tells Bevy the crown's bounds and the middle
+/// that it is sorted by.
 pub(crate) fn crown_mesh(shape: &SlicingShape, slots: usize, place: u32) -> Mesh {
     let count = most_slices(shape, slots) * CORNERS as u32;
     let reach = 1.1 * shape.radius;

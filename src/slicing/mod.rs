@@ -19,11 +19,12 @@
 //!    ([`PlantLighting`](crate::lighting::PlantLighting)), or let them cast shadows (`shaders/prepass.wgsl`).
 //!
 //! # How crowns are sorted
-//! Blended crowns are items of Bevy's transparent phase rather than of a pass of their own: so they are in right order
-//! with all else that is transparent, in every view. Neighbours in that order that are of one set of slicings and the same
-//! settings are one draw. A set is made of slicings in use of as many pixels a slice, all compressed or none, with light from behind
-//! in all or in none, a moment after the last of them has come (`gather.rs`), so that a grove of several kinds of trees is one
-//! draw; until then each slicing is a set of its own (`set.rs`). Where a device draws nothing indirectly, several are drawn in turns.
+//! Blended crowns are items of Bevy's transparent phase rather than of a pass of their own: so they are in right order with
+//! all else that is transparent, in every view. Neighbours in that order that are of one set of slicings and the same
+//! settings are one draw. A set is made of slicings in use of as many pixels a slice, all compressed or none, with light
+//! from behind in all or in none, a moment after the last of them has come (`gather.rs`), so that a grove of several kinds
+//! of trees is one draw; until then each slicing is a set of its own (`set.rs`). Where a device draws nothing indirectly,
+//! several are drawn in turns.
 //!
 //! # Where this departs from the paper
 //! * Slices of a rank are drawn in the order of their orientations instead of the secondary before the primary one.
@@ -34,8 +35,9 @@
 //!   correction f_c for the whole crown.
 //! * A vertical slicing joins in as the eye rises (§4 proposes it), for eyes above and below.
 //! * Slices are lit by the scene, not by the bake, and cast shadows; light from around is darker inside the crown.
-//! * For eyes above and below, leaves of slices are turned to the eye ([`blend::leaning`]); for them, and with the sun behind the eye, shadows
-//!   are received nearer to the sun ([`blend::towards_sun`]): such eyes see others of a crown's leaves than level ones beside it.
+//! * For eyes above and below, leaves of slices are turned to the eye ([`blend::leaning`]); for them, and with the sun
+//!   behind the eye, shadows are received nearer to the sun ([`blend::towards_sun`]): such eyes see others of a crown's
+//!   leaves than level ones beside it.
 //! * In HDR blended slices count for more, since tone mapping comes after blending.
 //! * Light comes through leaves from behind, as their material says.
 //! * Up close the discrepancy angle is taken part by part ([`DiscrepancyAngle`]), which §4 proposes.
@@ -45,8 +47,8 @@
 //! * Wind moves near slices more than far ones; see [`wind`](crate::wind).
 //!
 //! # What it does not do
-//! Crowns that intersect are not sorted slice by slice. Within a few metres slices show where no mesh takes over. Storage buffers in the vertex stage are required, so
-//! WebGL 2 is out.
+//! Crowns that intersect are not sorted slice by slice. Within a few metres slices show where no mesh takes over. Storage
+//! buffers in the vertex stage are required, so WebGL 2 is out.
 
 pub mod bake;
 pub mod blend;
@@ -157,7 +159,11 @@ impl Plugin for SlicingPlugin {
             )
             .add_systems(
                 PostUpdate,
-                (near::part_by_part, library::follow_sun)
+                (
+                    near::part_by_part,
+                    library::follow_sun,
+                    library::follow_cameras,
+                )
                     .run_if(resource_exists::<Assets<ShaderBuffer>>)
                     .after(VerdureSystems::Attach)
                     // Where crowns, cameras and suns are in this frame.

@@ -6,7 +6,8 @@ use bevy::math::Vec3;
 use bevy::reflect::Reflect;
 use serde::{Deserialize, Serialize};
 
-/// How the directions from which a plant is seen are covered with orientations (§2.3). Other numbers are refused when it is baked.
+/// How the directions from which a plant is seen are covered with orientations (§2.3). Other numbers are refused when it is
+/// baked.
 #[derive(Clone, Debug, PartialEq, Reflect)]
 pub enum Orientations {
     /// So many, evenly spread over the horizontal circle: 3 to 31. The paper has 6.

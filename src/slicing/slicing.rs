@@ -21,8 +21,8 @@ const MARGIN: f32 = 2.0;
 /// A crown baked into slicings, in several orientations and levels of detail. Bake one with
 /// [`bake`](super::bake()), or load a `*.slicing.ron` file; draw it with [`SlicedCrown`](super::SlicedCrown).
 ///
-/// Layers are counted by level of detail, then orientation, then slice, the one furthest from the eye first. Clones share their
-/// pictures.
+/// Layers are counted by level of detail, then orientation, then slice, the one furthest from the eye first. Clones share
+/// their pictures.
 #[derive(Asset, Clone, Debug, PartialEq, Reflect)]
 #[reflect(opaque)]
 #[reflect(Clone, Debug, PartialEq)]
@@ -191,8 +191,8 @@ impl Slicing {
         Ok(Self::trimmed(shape, color, normal))
     }
 
-    /// A slicing of pictures of the shape's size, whatever that is: of more pixels than a slicing may have, for other methods to
-    /// draw.
+    /// A slicing of pictures of the shape's size, whatever that is: of more pixels than a slicing may have, for other
+    /// methods to draw.
     pub(crate) fn trimmed(shape: SlicingShape, color: Vec<[u8; 4]>, normal: Vec<[u8; 4]>) -> Self {
         let layer = (shape.pixels * shape.pixels) as usize;
         let octagons = color

@@ -73,8 +73,9 @@ pub fn count_exponent(slices: f32, most: u32) -> u32 {
     exponent
 }
 
-/// The last part of the way to the next count, and to the next direction, in which one turns into the other. Twice the slices are
-/// drawn meanwhile: a quarter of the way would draw two fifths more on the whole, a sixteenth would pop.
+/// The last part of the way to the next count, and to the next direction, in which one turns into the other. Twice the
+/// slices of a count are drawn meanwhile, and those of both directions: a longer part would draw more, a sixteenth would
+/// pop.
 pub const FADE: f32 = 0.09375;
 
 /// How far twice as many slices have moved apart before they are needed, where 2^`exponent` still do: 0 to 1. So nothing

@@ -1,4 +1,5 @@
-//! The wind of a scene. Crowns ([`slicing`](crate::slicing)) and texels ([`texel`](crate::texel)) sway in it; frusta do not yet.
+//! The wind of a scene. Crowns ([`slicing`](crate::slicing)) and texels ([`texel`](crate::texel)) sway in it; frusta do not
+//! yet.
 //!
 //! A stem that bends like a cantilever under an even load moves by about the square of the height. Gusts travel with the
 //! wind, so that neighbours sway one after the other. `wind.wgsl` has the same functions by the same names.

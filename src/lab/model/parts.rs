@@ -73,7 +73,8 @@ impl Model {
     /// All of it, to be built into a volume: glTF's y is its height, w, and −z is v.
     ///
     /// # Errors
-    /// As [`Shape::add_mesh`], which takes all that [`load_model`](crate::lab::load_model) reads; the message names the mesh.
+    /// As [`Shape::add_mesh`], which takes all that [`load_model`](crate::lab::load_model) reads; the message names the
+    /// mesh.
     pub fn shape(&self) -> Result<Shape, String> {
         let mut shape = Shape::default();
         for part in &self.parts {

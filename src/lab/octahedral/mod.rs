@@ -2,9 +2,9 @@
 //!
 //! Pictures of the crown are taken from directions over the upper half of the octahedron, unfolded to a square (Z. Cigolle
 //! and others, *A Survey of Efficient Representations for Independent Unit Vectors*, JCGT 2014); a quad turned to the eye
-//! shows the three that are next to it, blended (R. Brucks, *Octahedral Impostors*, 2018). Here they are baked as slices are,
-//! trimmed as slices are, and lit as [`PlantLighting::Simple`](crate::lighting::PlantLighting::Simple) lights slices. Into
-//! shadow maps the picture next to the light's direction is cast.
+//! shows the three that are next to it, blended (R. Brucks, *Octahedral Impostors*, 2018). Here they are baked as slices
+//! are, trimmed as slices are, and lit as [`PlantLighting::Simple`](crate::lighting::PlantLighting::Simple) lights slices.
+//! Into shadow maps the picture next to the light's direction is cast.
 
 mod material;
 mod views;

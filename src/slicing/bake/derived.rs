@@ -21,22 +21,24 @@ const SLICES: RangeInclusive<u32> = 1..=15;
 const FEWEST_PIXELS: u32 = 64;
 
 impl BakeSettings {
-    /// Settings for a crown of `radius` metres whose centroid is seen from no nearer than `distance` metres, so that nothing of
-    /// it is displaced by more than `error` pixels on a screen of 480 lines of 52° ([`FOCAL`](crate::slicing::blend::FOCAL)).
+    /// Settings for a crown of `radius` metres whose centroid is seen from no nearer than `distance` metres, so that nothing
+    /// of it is displaced by more than `error` pixels on a screen of 480 lines of 52°
+    /// ([`FOCAL`](crate::slicing::blend::FOCAL)).
     ///
-    /// Of n slices over a depth of 2 r, a primitive is moved to the nearest one by at most r/n (§2.2). Eyes as high as the crown
-    /// see one of k orientations from at most θ = π/k aside, half of the way to the next; so what is moved is displaced on screen
-    /// by at most (r/n) sin θ `FOCAL` / d. Of 3 to 24 orientations and 1 to 15 slices, those of the least product are taken that
-    /// keep this under `error`, of equal products those of fewer slices. Where they would be more than
-    /// [`MAX_LAYERS`](crate::slicing::MAX_LAYERS) slices in all, which is so where `error` × `distance` / `radius` is below 8.6,
-    /// the finest that are allowed are taken, and the bound does not hold.
+    /// Of n slices over a depth of 2 r, a primitive is moved to the nearest one by at most r/n (§2.2). Eyes as high as the
+    /// crown see one of k orientations from at most θ = π/k aside, half of the way to the next; so what is moved is
+    /// displaced on screen by at most (r/n) sin θ `FOCAL` / d. Of 3 to 24 orientations and 1 to 15 slices, those of the
+    /// least product are taken that keep this under `error`, of equal products those of fewer slices. Where they would be
+    /// more than [`MAX_LAYERS`](crate::slicing::MAX_LAYERS) slices in all, which is so where `error` × `distance` / `radius`
+    /// is below 8.6, the finest that are allowed are taken, and the bound does not hold.
     ///
-    /// Coarser levels of 3 and of 1 slices take over where the same holds of them. Slices have as many pixels a side as the crown
-    /// takes on screen, over `error` where that is more than one, up to the next power of two: 64, or more as far as is allowed.
-    /// All other settings are the defaults.
+    /// Coarser levels of 3 and of 1 slices take over where the same holds of them. Slices have as many pixels a side as the
+    /// crown takes on screen, over `error` where that is more than one, up to the next power of two: 64, or more as far as
+    /// is allowed. All other settings are the defaults.
     ///
-    /// A radius or a distance that is no finite number above 0 makes the distance 10 radii; such an error is taken for 4 pixels.
-    /// Distances are brought into 1 to 10,000 radii and errors into 0.01 to 100 pixels. So what comes out can always be baked with.
+    /// A radius or a distance that is no finite number above 0 makes the distance 10 radii; such an error is taken for 4
+    /// pixels. Distances are brought into 1 to 10,000 radii and errors into 0.01 to 100 pixels. So what comes out can always
+    /// be baked with.
     pub fn for_view(radius: f32, distance: f32, error: f32) -> Self {
         let is_usable = |x: f32| x.is_finite() && x > 0.0;
         let radii = if is_usable(radius) && is_usable(distance) {
@@ -65,8 +67,8 @@ impl BakeSettings {
     }
 }
 
-/// How fine slicings are: radii over the furthest that something is displaced across the eye's direction, n / sin(π/k). Of n slices
-/// something is moved by 1/n of the radius, and seen from at most π/k aside.
+/// How fine slicings are: radii over the furthest that something is displaced across the eye's direction, n / sin(π/k). Of n
+/// slices something is moved by 1/n of the radius, and seen from at most π/k aside.
 fn fineness(orientations: u32, slices: u32) -> f32 {
     slices as f32 / (PI / orientations as f32).sin()
 }

@@ -13,8 +13,8 @@ use super::source::{CrownMaterial, CrownMesh, CrownTriangle, CrownVertex};
 use super::texture::CrownTexture;
 
 impl CrownMaterial {
-    /// What a crown takes of a standard material: base colour, its texture and where that lies, its alpha mode, and its diffuse
-    /// transmission. `mesh` names it in errors.
+    /// What a crown takes of a standard material: base colour, its texture and where that lies, its alpha mode, and its
+    /// diffuse transmission. `mesh` names it in errors.
     ///
     /// # Errors
     /// When the texture is not among `images`, or cannot be read.
@@ -55,8 +55,8 @@ impl CrownMesh {
     /// missing where the material has no texture, and vertex colours always.
     ///
     /// # Errors
-    /// When the mesh is not one of triangles, is not kept in the main world, lacks positions or needed texture
-    /// coordinates, its indices make no triangles or point behind its vertices, or a number is not finite or too far from the origin.
+    /// When the mesh is not one of triangles, is not kept in the main world, lacks positions or needed texture coordinates,
+    /// its indices make no triangles or point behind its vertices, or a number is not finite or too far from the origin.
     pub fn add_mesh(
         &mut self,
         name: &str,

@@ -1,10 +1,10 @@
 //! Baking: from the triangles of a crown to the pictures of its slices (§2.1, §2.2).
 //!
-//! 1. The crown's triangles are gathered (`source`, `from_mesh`) and parted from the solid ones (`separate`), which stay a mesh
-//!    (`to_mesh`). Settings are given, or follow from a distance and an error (`settings`, `derived`).
+//! 1. The crown's triangles are gathered (`source`, `from_mesh`) and parted from the solid ones (`separate`), which stay a
+//!    mesh (`to_mesh`). Settings are given, or follow from a distance and an error (`settings`, `derived`).
 //! 2. The light that leaves hold back is found for each (`occlusion`).
-//! 3. Every orientation gets its box and axes ([`Orientation`]); every slice is a job of its own, taken by the next
-//!    free thread: the triangles nearest to it are drawn by parallel projection with many samples a pixel (`raster`, `alpha`).
+//! 3. Every orientation gets its box and axes ([`Orientation`]); every slice is a job of its own, taken by the next free
+//!    thread: the triangles nearest to it are drawn by parallel projection with many samples a pixel (`raster`, `alpha`).
 //! 4. Samples become pixels, and colours spread under transparent ones (`resolve`).
 //!
 //! No job knows of another, and none depends on the number of threads: the same input bakes to the same bytes.
@@ -75,7 +75,8 @@ pub(crate) fn bake_towards(
     bake_shape(mesh, settings, directions, |_, _| {})
 }
 
-/// Bakes with settings that are not checked: in particular, with more pixels a side (a power of two) than a slicing may have.
+/// Bakes with settings that are not checked: in particular, with more pixels a side (a power of two) than a slicing may
+/// have.
 #[cfg(feature = "lab")]
 pub(crate) fn bake_unchecked(
     mesh: &CrownMesh,

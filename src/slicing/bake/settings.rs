@@ -9,9 +9,9 @@ use crate::slicing::limits::{
 use crate::slicing::orientation::Orientations;
 
 /// Settings of [`bake`](super::bake()). The defaults are the paper's 6 orientations of 5 slices of 256² pixels, with a
-/// vertical orientation and two coarser levels of detail besides; [`for_view`](Self::for_view) derives them from a distance and
-/// an error. There are 256 slices at most in all, of all orientations and levels, and 2²⁶ pixels; what is out of range is refused,
-/// with the fix.
+/// vertical orientation and two coarser levels of detail besides; [`for_view`](Self::for_view) derives them from a distance
+/// and an error. There are 256 slices at most in all, of all orientations and levels, and 2²⁶ pixels; what is out of range
+/// is refused, with the fix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BakeSettings {
     /// Directions to bake for.
@@ -25,12 +25,13 @@ pub struct BakeSettings {
     pub switches: Vec<f32>,
     /// Pixels along each side of a slice: a power of two, 4 to 1024.
     pub pixels: u32,
-    /// Samples along each side of a pixel, 1 to 8, and 4096 at most along that of a slice: each thread keeps eight bytes a sample.
+    /// Samples along each side of a pixel, 1 to 8, and 4096 at most along that of a slice: each thread keeps eight bytes a
+    /// sample.
     pub samples: u32,
     /// m_s of §2.3, 0 to 4: how much more opaque blended slicings are drawn in the paper's order, for their brightness.
     pub correction: f32,
-    /// How much light from around is held back by the leaves it passes, from 0 to 1: 0 not at all, as meshes are lit in Bevy,
-    /// which is nearest to these; 1 as if leaves were black. The default, a quarter, still is a little darker within.
+    /// How much light from around is held back by the leaves it passes, from 0 to 1: 0 not at all, as meshes are lit in
+    /// Bevy, which is nearest to these; 1 as if leaves were black. The default, a quarter, still is a little darker within.
     pub occlusion: f32,
     /// Threads to bake with; 0 for as many as the machine has cores. The result does not depend on it.
     pub threads: usize,

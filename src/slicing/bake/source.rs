@@ -13,8 +13,8 @@ pub const MAX_COORDINATE: f32 = 1e5;
 /// The look of some of a crown's triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CrownMaterial {
-    /// Base colour, linear with alpha, multiplied with vertex colours and the texture. What comes to less than 0 or more than 1 is
-    /// taken for the nearest; what is not finite is refused when it is baked.
+    /// Base colour, linear with alpha, multiplied with vertex colours and the texture. What comes to less than 0 or more
+    /// than 1 is taken for the nearest; what is not finite is refused when it is baked.
     pub color: [f32; 4],
     /// Base colour texture; `None` is white.
     pub texture: Option<CrownTexture>,
@@ -26,8 +26,8 @@ pub struct CrownMaterial {
     pub opaque: bool,
     /// Where alpha is less than this there is a hole (an alpha mask); 0 for none, for what is blended.
     pub cutoff: f32,
-    /// Share of the light that comes through from behind, 0 to 1, as of Bevy's `StandardMaterial`: 0 is solid, 0.5 looks alike
-    /// from both sides. What is below or above is taken for the nearest, and no number for 0.
+    /// Share of the light that comes through from behind, 0 to 1, as of Bevy's `StandardMaterial`: 0 is solid, 0.5 looks
+    /// alike from both sides. What is below or above is taken for the nearest, and no number for 0.
     pub diffuse_transmission: f32,
 }
 
@@ -172,8 +172,8 @@ impl CrownMesh {
     /// Refuses what cannot be baked; of degenerate triangles, which have no area, the rest is none the worse.
     ///
     /// # Errors
-    /// When there is no triangle, none has an area, one names a material that is not there, or a number of a vertex or a material is
-    /// not finite, or too far from the origin.
+    /// When there is no triangle, none has an area, one names a material that is not there, or a number of a vertex or a
+    /// material is not finite, or too far from the origin.
     pub fn check(&self) -> Result<(), BakeError> {
         if self.triangles.is_empty() {
             return Err(BakeError::NoTriangles);

@@ -11,15 +11,15 @@ use super::source::{CrownMesh, CrownTriangle, CrownVertex};
 type Numbers = [f32; 12];
 
 impl CrownMesh {
-    /// All triangles as one Bevy mesh: a list of triangles with indices, in which corners that are the same are one vertex. For the
-    /// solid part that [`separate`](super::separate()) gives back.
+    /// All triangles as one Bevy mesh: a list of triangles with indices, in which corners that are the same are one vertex.
+    /// For the solid part that [`separate`](super::separate()) gives back.
     ///
-    /// It has positions in metres, normals of unit length, texture coordinates as they are, and linear vertex colours, which the
-    /// colours of the materials are multiplied into. So its material is white, with the texture, its transform and the mask that the triangles'
-    /// material has; where triangles have materials of several textures, make a mesh of each.
+    /// It has positions in metres, normals of unit length, texture coordinates as they are, and linear vertex colours, which
+    /// the colours of the materials are multiplied into. So its material is white, with the texture, its transform and the
+    /// mask that the triangles' material has; where triangles have materials of several textures, make a mesh of each.
     ///
-    /// Nothing is checked: a normal of no length becomes that of its triangle, a material that is not there is white, and of no triangles
-    /// comes an empty mesh.
+    /// Nothing is checked: a normal of no length becomes that of its triangle, a material that is not there is white, and of
+    /// no triangles comes an empty mesh.
     pub fn to_mesh(&self) -> Mesh {
         let mut known: HashMap<[u32; 12], u32> = HashMap::default();
         let (mut positions, mut normals) = (Vec::new(), Vec::new());

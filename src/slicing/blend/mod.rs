@@ -2,7 +2,8 @@
 //!
 //! `weights.rs` finds the slicings and their weights, `parts.rs` how they differ from part to part up close, `detail.rs` the
 //! level, `cast.rs` what casts shadows, `seen.rs` how leaves are lit from above; here they become slices, far to near. In
-//! `shaders`, `blend.wgsl`, `parts.wgsl`, `cast.wgsl`, `seen.wgsl` and, for what becomes of them, `drawn.wgsl` have the same functions by the same names.
+//! `shaders`, `blend.wgsl`, `parts.wgsl`, `cast.wgsl`, `seen.wgsl` and, for what becomes of them, `drawn.wgsl` have the same
+//! functions by the same names.
 
 use bevy::math::Vec3;
 

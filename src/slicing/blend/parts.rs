@@ -1,5 +1,5 @@
-//! Up close, the discrepancy angle is taken part by part (§4): along each ray from the eye, the slicings count as they do for an
-//! eye that is far away on that ray. `shaders/parts.wgsl` has the same functions by the same names.
+//! Up close, the discrepancy angle is taken part by part (§4): along each ray from the eye, the slicings count as they do
+//! for an eye that is far away on that ray. `shaders/parts.wgsl` has the same functions by the same names.
 
 use bevy::math::{Vec2, Vec3};
 
@@ -10,12 +10,13 @@ use crate::slicing::slicing::SlicingShape;
 /// Slicings that are drawn at once where the discrepancy angle is taken part by part.
 pub const PART_SLOTS: usize = SLOTS + 1;
 
-/// Distances in radii from where to where the discrepancy angle goes over from that of each part to that of the whole crown. Three
-/// radii away a ball that fills its slicing box is seen under 20° to either side of its middle, most crowns under half of it.
+/// Distances in radii from where to where the discrepancy angle goes over from that of each part to that of the whole crown.
+/// Three radii away a ball that fills its slicing box is seen under 20° to either side of its middle, most crowns under half
+/// of it.
 pub const PARTS: [f32; 2] = [2.0, 3.0];
 
-/// The greatest angle, in radians, by which a part's direction may differ from the whole crown's: 30°. So a slicing that is drawn
-/// has its front to the eye, and the vertical one that which it shows to the middle of the crown.
+/// The greatest angle, in radians, by which a part's direction may differ from the whole crown's: 30°. So a slicing that is
+/// drawn has its front to the eye, and the vertical one that which it shows to the middle of the crown.
 const WIDEST: f32 = core::f32::consts::FRAC_PI_6;
 
 /// The greatest angle, in radians, by which a part's direction may differ from the whole crown's, for some orientations: a
@@ -36,9 +37,10 @@ pub fn widest(shape: &SlicingShape) -> f32 {
     widest
 }
 
-/// Cosine and sine of the angle by which directions to the eye may differ from that from the centroid, for an eye so many radii away:
-/// all that a crown is seen under from near by, and none from far. `level` is the cosine of the eye's elevation: as it rises, a cone
-/// round its direction turns by more and more of azimuth, and is kept to what orientations round the circle allow for.
+/// Cosine and sine of the angle by which directions to the eye may differ from that from the centroid, for an eye so many
+/// radii away: all that a crown is seen under from near by, and none from far. `level` is the cosine of the eye's elevation:
+/// as it rises, a cone round its direction turns by more and more of azimuth, and is kept to what orientations round the
+/// circle allow for.
 pub fn deviation(distance: f32, widest: f32, level: f32) -> Vec2 {
     let seen = (1.0 / distance.max(1.0)).asin();
     let angle =
@@ -46,8 +48,8 @@ pub fn deviation(distance: f32, widest: f32, level: f32) -> Vec2 {
     Vec2::new(angle.cos(), angle.sin())
 }
 
-/// The direction to the eye that counts for what is seen along `ray` (unit, towards the eye), for an eye in a `direction` (unit)
-/// from the centroid, and a [`deviation`].
+/// The direction to the eye that counts for what is seen along `ray` (unit, towards the eye), for an eye in a `direction`
+/// (unit) from the centroid, and a [`deviation`].
 pub fn part_direction(direction: Vec3, ray: Vec3, deviation: Vec2) -> Vec3 {
     let cosine = direction.dot(ray);
     if cosine >= deviation.x {
@@ -67,9 +69,10 @@ pub fn part_weight(shape: &SlicingShape, orientation: u32, direction: Vec3) -> f
 /// Cosine of the angle between two orientations beyond which neither is beside the other.
 const OPPOSITE: f32 = -0.9999;
 
-/// Where a direction (unit) to the eye is among the orientations, for one of them: the discrepancy angle over half of the angle to
-/// the next orientation on that side, and the share that the vertical slicing takes of it, or leaves it. Over a slice these go
-/// nearly evenly, so that they are worked out at its corners; [`turned_weight`] makes [`part_weight`] of them at each place.
+/// Where a direction (unit) to the eye is among the orientations, for one of them: the discrepancy angle over half of the
+/// angle to the next orientation on that side, and the share that the vertical slicing takes of it, or leaves it. Over a
+/// slice these go nearly evenly, so that they are worked out at its corners; [`turned_weight`] makes [`part_weight`] of them
+/// at each place.
 pub fn part_turn(shape: &SlicingShape, orientation: u32, direction: Vec3) -> Vec2 {
     let rise = if shape.vertical {
         smooth(RISE[0], RISE[1], direction.y.abs())
@@ -101,7 +104,8 @@ pub fn part_turn(shape: &SlicingShape, orientation: u32, direction: Vec3) -> Vec
     Vec2::new(discrepancy / (0.5 * next), rise)
 }
 
-/// The weight that a [`part_turn`] tells of: from the swap, where half is left, as far to either side as to where a slicing is alone.
+/// The weight that a [`part_turn`] tells of: from the swap, where half is left, as far to either side as to where a slicing
+/// is alone.
 pub fn turned_weight(turn: Vec2) -> f32 {
     (1.5 - turn.x.abs()).clamp(0.0, 1.0) * (1.0 - turn.y)
 }
@@ -131,8 +135,8 @@ fn counts(shape: &SlicingShape, orientation: u32, direction: Vec3, deviation: Ve
     part_weight(shape, orientation, turned) > 0.0
 }
 
-/// The slicings that are drawn for an eye in a `direction` (unit) from the centroid, in the order of their orientations: of weight
-/// 1 those that count for any part, whose own weight [`part_weight`] tells, of weight 0 others.
+/// The slicings that are drawn for an eye in a `direction` (unit) from the centroid, in the order of their orientations: of
+/// weight 1 those that count for any part, whose own weight [`part_weight`] tells, of weight 0 others.
 pub fn part_slots(shape: &SlicingShape, direction: Vec3, deviation: Vec2) -> [Slot; PART_SLOTS] {
     let ([mut sorted @ .., _], _) = nearest(shape, direction);
     sorted.sort_unstable();

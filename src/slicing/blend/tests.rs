@@ -243,8 +243,8 @@ fn leaves_are_nearer_to_the_sun_where_the_eye_looks_along_the_light_or_stands_hi
     // The nearer of both bounds, here by the distance between slices.
     let most = HOT_SPOT[0] * 0.1;
     for (near, share) in [(1.0, 1.0), (0.8, 0.64), (0.0, 0.0), (-1.0, 0.0)] {
-        // Of vertical slices the hot spot alone, which is none where the light comes from before the eye; of upright ones as well at
-        // the height at which they are as light as their leaves.
+        // Of vertical slices the hot spot alone, which is none where the light comes from before the eye; of upright ones as
+        // well at the height at which they are as light as their leaves.
         assert!((shift(Vec3::Y, 0.9, near, 0.1) - share * most).abs() < 1e-6);
         assert!((shift(Vec3::X, EVEN_HEIGHT, near, 0.1) - share * most).abs() < 1e-6);
     }

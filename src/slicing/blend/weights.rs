@@ -116,9 +116,10 @@ pub fn corrected(weight: f32, greatest: f32, correction: f32) -> f32 {
     (weight * (1.0 + correction * (1.0 - greatest))).min(1.0)
 }
 
-/// The weight of a slicing whose slices look `towards` a direction, for an eye in `direction` (both unit). From above and below, light
-/// meets on its way through a crown as many leaves as ever, but of upright slices as many fewer as the cosine of the elevation says.
-/// So each counts for that many more (Beer and Lambert), up to twice; further up the vertical slicing is alone.
+/// The weight of a slicing whose slices look `towards` a direction, for an eye in `direction` (both unit). From above and
+/// below, light meets on its way through a crown as many leaves as ever, but of upright slices as many fewer as the cosine
+/// of the elevation says. So each counts for that many more (Beer and Lambert), up to twice; further up the vertical slicing
+/// is alone.
 pub fn slanted(shape: &SlicingShape, weight: f32, towards: Vec3, direction: Vec3) -> f32 {
     if !shape.is_upright(towards) {
         return weight;

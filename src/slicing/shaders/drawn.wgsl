@@ -20,7 +20,8 @@ struct DrawnSlice {
 }
 
 // The slice that is drawn in the `number`th place, far to near, for an eye in a direction (unit) from the centroid and
-// apparently so many radii away; of no opacity where there is none. Up close, by part of the crown, `deviation` says how much they differ.
+// apparently so many radii away; of no opacity where there is none. Up close, by part of the crown, `deviation` says how
+// much they differ.
 fn drawn_slice(number: u32, direction: vec3<f32>, distance: f32, deviation: vec2<f32>) -> DrawnSlice {
     let detail = levels(distance);
     // The coarser level comes first, where it shows at all.

@@ -15,20 +15,22 @@ fn cells(footprint: f32) -> f32 {
     return exp2(ceil(-log2(max(footprint, 1e-5))));
 }
 
-// The number of the frame for a camera that gathers frames, as temporal anti-aliasing does, which is one whose view is jittered; else
-// 0, so that nothing flickers.
-fn gathered_frame(clip_from_world: mat4x4<f32>, unjittered: mat4x4<f32>, frame: u32) -> u32 {
+// The number of the frame for a camera that gathers frames, else 0, so that nothing flickers. Where only some cameras do,
+// they are known by a jittered view: one frame in eight, for which Bevy's jitter is zero, is then drawn as if it were not
+// gathered.
+fn gathered_frame(gathering: u32, clip_from_world: mat4x4<f32>, unjittered: mat4x4<f32>, frame: u32) -> u32 {
     let is_jittered = any(clip_from_world[0] != unjittered[0]) || any(clip_from_world[1] != unjittered[1])
         || any(clip_from_world[2] != unjittered[2]) || any(clip_from_world[3] != unjittered[3]);
-    return select(0u, frame, is_jittered);
+    return select(0u, frame, gathering == 2u || gathering == 1u && is_jittered);
 }
 
 fn footprint(uv: vec2<f32>) -> f32 {
     return max(length(dpdx(uv)), length(dpdy(uv)));
 }
 
-// What is drawn for a place in a frame, from 0 to 1: it is there where that is less than its opacity. From frame to frame lots go
-// on by the golden ratio of all of them, so that those of a few frames are spread evenly, and their mean is that opacity.
+// What is drawn for a place in a frame, from 0 to 1: it is there where that is less than its opacity. From frame to frame
+// lots go on by the golden ratio of all of them, so that those of a few frames are spread evenly, and their mean is that
+// opacity.
 fn lot_of(uv: vec2<f32>, cells: f32, lot: u32, frame: u32) -> f32 {
     // By way of signed numbers, which drivers in software turn sooner.
     let cell = bitcast<vec2<u32>>(vec2<i32>(uv * cells));

@@ -11,8 +11,8 @@ const OPPOSITE: f32 = -0.9999;
 const PART_SLOTS: u32 = 4u;
 const PARTS: vec2<f32> = vec2(2.0, 3.0);
 
-// Cosine and sine of the angle by which directions to the eye may differ from that from the centroid, for an eye so many radii
-// away; `level` is the cosine of the eye's elevation.
+// Cosine and sine of the angle by which directions to the eye may differ from that from the centroid, for an eye so many
+// radii away; `level` is the cosine of the eye's elevation.
 fn deviation(distance: f32, widest: f32, level: f32) -> vec2<f32> {
     let seen = asin(1.0 / max(distance, 1.0));
     let angle = min(seen, asin(sin(widest) * level)) * (1.0 - smoothstep(PARTS.x, PARTS.y, distance));

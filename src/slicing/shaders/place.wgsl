@@ -25,9 +25,9 @@
 #import bevy_pbr::mesh_view_bindings::globals
 #endif
 
-// How much more crowns cover that are blended before colours are mapped to the screen. Tone mapping dims what is bright most, so
-// that a leaf half there before the sky comes out nearer to the sky than to the leaf, where a pixel that a mesh has or has not
-// does not. Found on the broadleaf, by what shows through it in the grove from 12 to 40 m, with TonyMcMapface.
+// How much more crowns cover that are blended before colours are mapped to the screen. Tone mapping dims what is bright
+// most, so that a leaf half there before the sky comes out nearer to the sky than to the leaf, where a pixel that a mesh has
+// or has not does not. Found on the broadleaf, by what shows through it in the grove from 12 to 40 m, with TonyMcMapface.
 const TONE_MAPPED: f32 = 1.35;
 
 // How far slices near to the eye flutter besides, as a share of the crown's sway.
@@ -111,7 +111,7 @@ fn tint(tag: u32) -> vec3<f32> {
 
 // The frame that lots are drawn for.
 fn frame() -> u32 {
-    return gathered_frame(view.clip_from_world, view.unjittered_clip_from_world, globals.frame_count);
+    return gathered_frame(crown_set.gathering, view.clip_from_world, view.unjittered_clip_from_world, globals.frame_count);
 }
 
 fn is_orthographic() -> bool {

@@ -1,6 +1,7 @@
 #define_import_path bevy_verdure::slicing::seen
 
-// How the leaves of a slice are lit for an eye above or below, or with the sun behind it, function by function what blend/seen.rs is.
+// How the leaves of a slice are lit for an eye above or below, or with the sun behind it, function by function what
+// blend/seen.rs is.
 
 #import bevy_verdure::slicing::blend::is_upright
 #import bevy_verdure::slicing::types::{crowns, which}

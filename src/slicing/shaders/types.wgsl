@@ -38,6 +38,8 @@ struct CrownSet {
     // Along a side of a slice.
     pixels: u32,
     left_out: u32,
+    // Which cameras gather frames, as temporal anti-aliasing does: 0 none, 1 those whose view is jittered, 2 all.
+    gathering: u32,
 }
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> crown_set: CrownSet;

@@ -213,7 +213,7 @@ fn at_the_least_angle_there_are_as_many_slices_as_seen_from_it() {
         let all = choose_fading(&facet(), &measure(), &view, &quality);
         let [_, _, w] = all;
         let w = w.expect("slices along w are seen best");
-        (w.exponent, w.inside)
+        (w.exponent, w.step_aside)
     };
     let (aslant, _) = count(25.0, 0.0);
     assert_eq!(count(0.0, 0.0), (0, 0.0));
@@ -247,7 +247,7 @@ fn bounds_that_are_no_numbers_above_zero_draw_all_slices() {
         for slices in all.into_iter().flatten() {
             assert_eq!(slices.exponent, 6, "{bound}");
             assert!(
-                slices.inside.is_finite() && slices.thickness > 0.0,
+                slices.step_aside.is_finite() && slices.thickness > 0.0,
                 "{bound}"
             );
         }
@@ -255,40 +255,61 @@ fn bounds_that_are_no_numbers_above_zero_draw_all_slices() {
     assert!(matches!(fewer, Choice::Slices { exponent, .. } if exponent < 6));
 }
 
+/// What is drawn across the axis that a view in a direction sees best, from 120 m to less than one.
+fn drawn_from_afar(axis: SliceAxis, direction: Vec3) -> impl Iterator<Item = DrawnSlices> {
+    // So slowly that the way on which slices move apart, the last three thirty-seconds, is many steps long.
+    (0..5000).map(move |i| {
+        let view = looking(direction, 120.0 * 0.999f32.powi(i));
+        let all = choose_fading(&facet(), &measure(), &view, &TexelQuality::default());
+        let slices = all[axis.index()].expect("it has all lots");
+        slices.drawn(true).expect("it has all lots")
+    })
+}
+
 #[test]
 fn what_is_drawn_goes_on_where_counts_double() {
-    let mut counts = Vec::new();
-    let mut before: Option<DrawnSlices> = None;
-    // So slowly that the way on which slices move apart, the last three thirty-seconds, is many steps long.
-    for i in 0..4000 {
-        let view = looking(Vec3::new(0.5, 0.0, -1.0), 40.0 * 0.999f32.powi(i));
-        let [_, _, w] = choose_fading(&facet(), &measure(), &view, &TexelQuality::default());
-        let drawn = w.and_then(|slices| slices.drawn(true));
-        let drawn = drawn.expect("slices along w are best, and have all lots");
-        counts.push(drawn.count);
-        if let Some(before) = before {
+    for (axis, direction) in [
+        (SliceAxis::U, Vec3::new(1.0, 0.05, -0.1)),
+        (SliceAxis::V, Vec3::new(0.05, -1.0, -0.1)),
+        (SliceAxis::W, Vec3::new(0.5, 0.0, -1.0)),
+    ] {
+        let mut counts = Vec::new();
+        let mut before: Option<DrawnSlices> = None;
+        for drawn in drawn_from_afar(axis, direction) {
+            counts.push(drawn.count);
             // Those that take the place of others begin where these are.
-            let doubled = drawn.count / before.count;
-            for slice in 0..drawn.count as i32 {
-                let place = slice_position(slice / doubled as i32, before.count, before.apart);
-                let moved = slice_position(slice, drawn.count, drawn.apart) - place;
-                // A step nearer changes what is needed by 1 to 2 in 1,000, and the way apart, half a layer, by 11 times as much.
-                assert!(
-                    moved.abs() * drawn.count as f32 <= 0.02,
-                    "{before:?} {drawn:?}"
-                );
+            if let Some(before) = before {
+                let doubled = drawn.count / before.count;
+                for slice in 0..drawn.count as i32 {
+                    let place = slice_position(slice / doubled as i32, before.count, before.apart);
+                    let moved = slice_position(slice, drawn.count, drawn.apart) - place;
+                    // A step nearer changes what is needed by 1 to 2 in 1,000, and the way apart, half a layer, by 11 times
+                    // as much.
+                    let layers = moved.abs() * drawn.count as f32;
+                    assert!(layers <= 0.02, "{axis:?} {before:?} {drawn:?}");
+                }
             }
-            assert!(
-                (before.inside - drawn.inside).abs() <= 0.03 * before.inside,
-                "{before:?} {drawn:?}"
-            );
+            before = Some(drawn);
         }
-        before = Some(drawn);
+        counts.dedup();
+        assert!(counts.len() > 3, "{axis:?} {counts:?}");
+        let doubles = |pair: &[u32]| pair[1] == 2 * pair[0];
+        assert!(counts.windows(2).all(doubles), "{axis:?} {counts:?}");
     }
-    counts.dedup();
-    assert!(counts.len() > 3, "{counts:?}");
-    assert!(
-        counts.windows(2).all(|pair| pair[1] == 2 * pair[0]),
-        "{counts:?}"
-    );
+}
+
+#[test]
+fn one_sees_half_as_deep_between_twice_as_many_slices_until_there_are_gaps() {
+    let slices = AxisSlices {
+        axis: SliceAxis::W,
+        exponent: 2,
+        along: true,
+        finer: 0.0,
+        lots: [0.0, 1.0],
+        step_aside: 0.3,
+        thickness: 0.1,
+        footprint: Vec2::ZERO,
+    };
+    let inside = [0, 1, 2, 3].map(|doublings| slices.inside(doublings));
+    assert_eq!(inside, [0.1, 0.1, 0.075, 0.0375]);
 }

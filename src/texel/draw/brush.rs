@@ -6,17 +6,17 @@ use bevy::prelude::*;
 
 use super::super::facet::comb;
 
-/// Strokes the texels of every [`TexelSurface`](super::TexelSurface) that is [`StrokedTexels`], where its entity goes: a hand
-/// over fur, a foot through grass.
+/// Strokes the texels of every [`TexelSurface`](super::TexelSurface) that is [`StrokedTexels`], where its entity goes: a
+/// hand over fur, a foot through grass.
 ///
-/// Height vectors within its radius are laid down in the direction in which it moves, most in its middle and not at all at its
-/// rim; where it comes down on a surface, away from it. They keep their lengths. How far they lie depends on the way that it
-/// went, and not on its speed; what stands still strokes nothing. It goes straight from where it was in the frame before: to begin
-/// elsewhere, leave the component out for a frame. One whose [`Transform`] is no number does nothing until it is one again, and
-/// then begins anew.
+/// Height vectors within its radius are laid down in the direction in which it moves, most in its middle and not at all at
+/// its rim; where it comes down on a surface, away from it. They keep their lengths. How far they lie depends on the way
+/// that it went, and not on its speed; what stands still strokes nothing. It goes straight from where it was in the frame
+/// before: to begin elsewhere, leave the component out for a frame. One whose [`Transform`] is no number does nothing until
+/// it is one again, and then begins anew.
 ///
-/// No facet loses its texels: height vectors that would lead through the surface or cross are laid down less. So grass that is
-/// taller than the brush is wide is parted less than it might be.
+/// No facet loses its texels: height vectors that would lead through the surface or cross are laid down less. So grass that
+/// is taller than the brush is wide is parted less than it might be.
 ///
 /// ```
 /// # use bevy::prelude::*;
@@ -57,8 +57,8 @@ pub struct TexelBrush {
     /// How far it reaches, in metres in world space, whatever its scale is. Where it is not finite and above 0 nothing is
     /// stroked.
     pub radius: f32,
-    /// How far it lays down in one stroke what its middle goes over, as a share of all the way: 0 leaves it as it is, and 1 is
-    /// nearly all. What is below or above is taken for the nearest, and no number for 0.
+    /// How far it lays down in one stroke what its middle goes over, as a share of all the way: 0 leaves it as it is, and 1
+    /// is nearly all. What is below or above is taken for the nearest, and no number for 0.
     pub strength: f32,
 }
 
@@ -73,18 +73,19 @@ impl Default for TexelBrush {
 
 /// Lets every [`TexelBrush`] stroke the [`TexelSurface`](super::TexelSurface) of the same entity.
 ///
-/// Its height vectors are then [`TexelHeights`](super::TexelHeights), put there once a brush has moved one, and written in frames
-/// in which one moves. The mesh's, or those that it has already, are what they return to, and so are those that a system of the
-/// game's writes later. Without the component what is combed stays so; remove `TexelHeights` as well to have it as it was.
+/// Its height vectors are then [`TexelHeights`](super::TexelHeights), put there once a brush has moved one, and written in
+/// frames in which one moves. The mesh's, or those that it has already, are what they return to, and so are those that a
+/// system of the game's writes later. Without the component what is combed stays so; remove `TexelHeights` as well to have
+/// it as it was.
 ///
-/// Where the mesh changes, what is combed goes along, unless it has another number of vertices. The mesh of a `SkinnedMesh` is
-/// stroked where it is at rest. Without a mesh, or one that carries texels, there is nothing to stroke.
+/// Where the mesh changes, what is combed goes along, unless it has another number of vertices. The mesh of a `SkinnedMesh`
+/// is stroked where it is at rest. Without a mesh, or one that carries texels, there is nothing to stroke.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct StrokedTexels {
     /// Seconds in which what lies down rises by a right angle, once no brush is within its radius; what lies less is up
-    /// sooner. With `INFINITY`, the default, it stays as it is combed. What is below 0 is taken for 0, at once, and no number for
-    /// `INFINITY`.
+    /// sooner. With `INFINITY`, the default, it stays as it is combed. What is below 0 is taken for 0, at once, and no
+    /// number for `INFINITY`.
     pub recovery: f32,
 }
 
@@ -161,8 +162,8 @@ impl Stroke {
         self.from + way * share.clamp(0.0, 1.0)
     }
 
-    /// How much of the way a place feels: (1 − (distance/radius)²)² summed up along it, in radii. So a way in several pieces is felt
-    /// as in one.
+    /// How much of the way a place feels: (1 − (distance/radius)²)² summed up along it, in radii. So a way in several pieces
+    /// is felt as in one.
     fn felt(&self, place: Vec3) -> f32 {
         let way = self.to - self.from;
         let along = way.normalize_or_zero();

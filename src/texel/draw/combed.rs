@@ -130,8 +130,8 @@ impl Combed {
         }
     }
 
-    /// Lets what is combed rise by an angle, but for what is held at its place in the mesh's space. Tells whether anything has
-    /// moved.
+    /// Lets what is combed rise by an angle, but for what is held at its place in the mesh's space. Tells whether anything
+    /// has moved.
     fn rise(&mut self, angle: f32, is_held: impl Fn(Vec3) -> bool) -> bool {
         let mut risen: Option<Vec<Vec3>> = None;
         let mut holds = false;
@@ -153,8 +153,8 @@ impl Combed {
         let Some(mut risen) = risen else {
             return false;
         };
-        // Beside what is held down facets might be lost. All that rises comes to where none is in the end, and must not be stuck
-        // on its way.
+        // Beside what is held down facets might be lost. All that rises comes to where none is in the end, and must not be
+        // stuck on its way.
         if holds {
             keep_facets(&self.rest, &self.heights, &mut risen);
         }
@@ -371,8 +371,8 @@ type Strokable<'w> = (
     Option<&'w mut Combed>,
 );
 
-/// Lets brushes stroke surfaces. Both are where their transforms say in this frame, which are propagated only after height vectors
-/// are attached.
+/// Lets brushes stroke surfaces. Both are where their transforms say in this frame, which are propagated only after height
+/// vectors are attached.
 pub(crate) fn stroke(
     mut commands: Commands,
     time: Res<Time>,

@@ -4,7 +4,7 @@ use bevy::mesh::{MeshVertexAttribute, VertexFormat};
 use bevy::prelude::*;
 
 use super::super::asset::TexelVolume;
-use super::super::choose::TexelQuality;
+use super::super::choose::{AxisSlices, DrawnSlices, TexelQuality};
 use super::super::facet::SurfaceFacets;
 use super::geometry::facets;
 use super::surface_mesh::TexelSurfaceError;
@@ -50,8 +50,8 @@ pub const ATTRIBUTE_HEIGHT_VECTOR: MeshVertexAttribute = MeshVertexAttribute::ne
 pub struct TexelSurface {
     /// What it is covered with. Edits show in the frame after; one that is taken away stays until another is in its place.
     pub volume: Handle<TexelVolume>,
-    /// Length of the height vectors where the mesh has none, in the mesh's units. Where it is not finite and above 0 the mesh
-    /// carries no texels, with an error, even if it has height vectors.
+    /// Length of the height vectors where the mesh has none, in the mesh's units. Where it is not finite and above 0 the
+    /// mesh carries no texels, with an error, even if it has height vectors.
     pub thickness: f32,
 }
 
@@ -75,11 +75,12 @@ impl TexelSurface {
 }
 
 /// Height vectors of one [`TexelSurface`], one for each vertex of its mesh, in the mesh's space: they take the place of
-/// those of the mesh. Change them to move the texels, as a [`TexelBrush`](super::TexelBrush) does; they are uploaded in the same
-/// frame, if that is before [`VerdureSystems::Attach`](crate::VerdureSystems::Attach).
+/// those of the mesh. Change them to move the texels, as a [`TexelBrush`](super::TexelBrush) does; they are uploaded in the
+/// same frame, if that is before [`VerdureSystems::Attach`](crate::VerdureSystems::Attach).
 ///
 /// If there are none, they follow the normals, [`thickness`](TexelSurface::thickness) long, whatever the mesh has; with any
-/// other number than that of its vertices the surface carries no texels, or those of a skin stay as they were, with an error.
+/// other number than that of its vertices the surface carries no texels, or those of a skin stay as they were, with an
+/// error.
 #[derive(Component, Clone, Debug, Default, PartialEq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct TexelHeights(pub Vec<Vec3>);
@@ -123,27 +124,27 @@ pub struct TexelSettings {
     pub quality: TexelQuality,
     /// The same for the views of lights, whose pixels are those of a shadow map. Its `direction` is not used.
     pub shadows: TexelQuality,
-    /// Slices of a finer set among which, within the layer of a slice, is looked for what is seen of it: colours and light are
-    /// nearly those of as many times more slices, outlines stay. From 1, the slice alone, to 16, rounded down to a power of two;
-    /// others are taken for the nearest. Each doubling costs one look into a texture for a pixel.
+    /// Slices of a finer set among which, within the layer of a slice, is looked for what is seen of it: colours and light
+    /// are nearly those of as many times more slices, outlines stay. From 1, the slice alone, to 16, rounded down to a power
+    /// of two; others are taken for the nearest. Each doubling costs one look into a texture for a pixel.
     pub inner_slices: u32,
     /// The most slices a texel in any direction, rounded down to a power of two; 0 is taken for 1. Memory grows with it. A
-    /// device has at most half as many as it has layers of a texture array; where that is fewer than the volume has voxels and
-    /// than are asked for, a warning names the volume.
+    /// device has at most half as many as it has layers of a texture array; where that is fewer than the volume has voxels
+    /// and than are asked for, a warning names the volume.
     pub most_slices: u32,
-    /// Whether slices move apart where their number doubles, and directions fade into one another, pixel by pixel, as the view
-    /// changes; else they pop.
+    /// Whether slices move apart where their number doubles, and directions fade into one another, pixel by pixel, as the
+    /// view changes; else they pop.
     pub fade: bool,
     /// What lights the texels; [`Unlit`](PlantLighting::Unlit) ones have the colours of the volume.
     pub lighting: PlantLighting,
-    /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it. What
-    /// is below or above is taken for the nearest, and no number for 0.
+    /// Perceptual roughness, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it.
+    /// What is below or above is taken for the nearest, and no number for 0.
     pub roughness: f32,
-    /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it. What is below
-    /// or above is taken for the nearest, and no number for 0.
+    /// Reflectance, 0 to 1, as of Bevy's `StandardMaterial`. Only [`Full`](PlantLighting::Full) lighting heeds it. What is
+    /// below or above is taken for the nearest, and no number for 0.
     pub reflectance: f32,
-    /// Share of the light that comes through from behind, 0 to 1, as of Bevy's `StandardMaterial`: 0 is solid, 0.5 is grass and
-    /// leaves, which look alike from both sides. What is below or above is taken for the nearest, and no number for 0.
+    /// Share of the light that comes through from behind, 0 to 1, as of Bevy's `StandardMaterial`: 0 is solid, 0.5 is grass
+    /// and leaves, which look alike from both sides. What is below or above is taken for the nearest, and no number for 0.
     pub diffuse_transmission: f32,
     /// How far the top moves in the [`Wind`](crate::wind::Wind), in heights, for each metre a second: 0 is stiff, 0.03 is
     /// grass. Height vectors bend, and keep their length. What is no finite number is taken for 0. Facets of which the wind
@@ -157,8 +158,8 @@ pub struct TexelSettings {
 /// The most slices that are looked up in the layer of one.
 const MOST_INNER_SLICES: u32 = 16;
 
-/// Found on pears (§6, Figure 11), lit from all sides: with less single pixels are dark, with a half stalks cast no shadow at
-/// their feet.
+/// Found on pears (§6, Figure 11), lit from all sides: with less single pixels are dark, with a half stalks cast no shadow
+/// at their feet.
 const SHADOW_SHARE: f32 = 0.125;
 
 impl TexelSettings {
@@ -201,13 +202,23 @@ impl TexelSettings {
         }
     }
 
-    /// How far above a place that is seen light falls on it, or solids would shade themselves in specks. So far it may be from the
-    /// surface: `inside`, by slices of a volume e thick in whose layers `inner` ones are looked up. In shadow maps, merged layers
-    /// stand out of what widens towards the light, by a share of d of [`shadows`](Self::shadows).
-    pub(crate) fn stand_off(&self, inside: f32, thickness: f32, inner: u32) -> f32 {
+    /// How far above a place that is seen light falls on it, or solids would shade themselves in specks: as far as it may be
+    /// from the surface, by slices, in whose layers inner ones are looked up, of a volume of which there are `most`. In
+    /// shadow maps, merged layers stand out of what widens towards the light, by a share of d of [`shadows`](Self::shadows).
+    pub(crate) fn stand_off(&self, slices: &AxisSlices, drawn: &DrawnSlices, most: u32) -> f32 {
+        let count = 1u32 << slices.exponent;
+        let inside = |doublings: u32| {
+            slices.inside(doublings) / self.inner_slices(count << doublings, most) as f32
+        };
+        let inside = if drawn.count == count {
+            inside(0)
+        } else {
+            // As deep as before where slices begin to move apart.
+            inside(0).lerp(inside(1), drawn.apart)
+        };
         // What is no number is none, and from e on there are gaps.
-        let d = self.shadows.depth.clamp(0.0, 1.0).max(0.0) * thickness;
-        inside / inner as f32 + SHADOW_SHARE * d
+        let d = self.shadows.depth.clamp(0.0, 1.0).max(0.0) * slices.thickness;
+        inside + SHADOW_SHARE * d
     }
 }
 
@@ -215,8 +226,8 @@ impl Default for TexelSettings {
     fn default() -> Self {
         Self {
             quality: TexelQuality::default(),
-            // No gaps, and no more: of what casts a shadow nobody sees the inside. The least angle is the usual one, for slices that
-            // stand far apart along the light are as far above what they show, and would shade it in specks.
+            // No gaps, and no more: of what casts a shadow nobody sees the inside. The least angle is the usual one, for
+            // slices that stand far apart along the light are as far above what they show, and would shade it in specks.
             shadows: TexelQuality {
                 depth: 1.0,
                 pixels: 2.0,
@@ -239,6 +250,7 @@ impl Default for TexelSettings {
 mod tests {
     use bevy::asset::uuid::Uuid;
 
+    use super::super::super::axis::SliceAxis;
     use super::*;
 
     #[test]
@@ -249,6 +261,52 @@ mod tests {
                 ..default()
             };
             assert_eq!(settings.limited_flexibility(), expected, "{flexibility}");
+        }
+    }
+
+    #[test]
+    fn light_falls_on_no_other_place_where_slices_begin_to_move_apart_and_where_they_end() {
+        let settings = TexelSettings::default();
+        let most = 64;
+        let slices = |exponent: u32, finer: f32, step_aside: f32| AxisSlices {
+            axis: SliceAxis::W,
+            exponent,
+            along: true,
+            finer,
+            lots: [0.0, 1.0],
+            step_aside,
+            thickness: 0.1,
+            footprint: Vec2::ZERO,
+        };
+        let stand_off = |slices: AxisSlices| {
+            let drawn = slices.drawn(true).expect("it has all lots");
+            settings.stand_off(&slices, &drawn, most)
+        };
+        // From 4 on fewer than 8 are left to be looked up in the layer of one; from .1 on there are gaps.
+        for exponent in 0..6 {
+            for step_aside in [0.01, 0.15, 0.3] {
+                let [before, begin, middle, end, after] = [
+                    slices(exponent, 0.0, step_aside),
+                    slices(exponent, 1e-6, step_aside),
+                    slices(exponent, 0.5, step_aside),
+                    slices(exponent, 1.0, step_aside),
+                    slices(exponent + 1, 0.0, 0.5 * step_aside),
+                ]
+                .map(stand_off);
+                assert!(
+                    (before - begin).abs() <= 1e-5 * before,
+                    "{exponent} {step_aside}"
+                );
+                assert!(
+                    (end - after).abs() <= 1e-5 * after,
+                    "{exponent} {step_aside}"
+                );
+                let mean = 0.5 * (begin + end);
+                assert!(
+                    (middle - mean).abs() <= 1e-5 * mean,
+                    "{exponent} {step_aside}"
+                );
+            }
         }
     }
 

@@ -286,4 +286,15 @@ mod tests {
             assert_eq!(limit(&[facet(across)], most), None, "{across}");
         }
     }
+
+    #[test]
+    fn any_mesh_takes_one_slice_a_facet() {
+        let facet = Facet {
+            positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
+            heights: [Vec3::Z; 3],
+            uvs: [Vec2::ZERO, Vec2::X, Vec2::Y],
+        };
+        let facets = vec![facet; MAX_SLICES + 1];
+        assert_eq!(limit(&facets, UVec3::splat(2)), Some(UVec3::ONE));
+    }
 }

@@ -125,8 +125,8 @@ impl SliceLists {
                             let list = &job.lists[axis];
                             if records.len() + list.len() > limit {
                                 error_once!(
-                                    "texels are left out: a frame has more than {limit} slices, all that a buffer of this \
-                                     device takes; raise TexelQuality::pixels or depth, or lower TexelSettings::most_slices"
+                                    "texels are left out: the slices of a frame do not fit in the {limit} that a buffer of \
+                                     this device takes; raise TexelQuality::pixels or depth, or lower TexelSettings::most_slices"
                                 );
                                 continue;
                             }

@@ -49,6 +49,7 @@ impl<T: Pod> Mirror<T> {
         device: &RenderDevice,
         queue: &RenderQueue,
     ) -> usize {
+        self.next.truncate(most);
         let bytes = size_of_val(self.next.as_slice());
         let room = self
             .buffer

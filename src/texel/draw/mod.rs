@@ -2,53 +2,54 @@
 //! needs.
 //!
 //! 1. A [`TexelSurface`] on an entity names a volume (`component.rs`). Its mesh becomes facets (`surface_mesh.rs`), which
-//!    the GPU has in one storage buffer with those of all surfaces (`records.rs`, `room.rs`, `upload.rs`), and the volume three
-//!    pairs of texture arrays (`images.rs`). What is alike is shared (`geometry.rs`, `library.rs`). Children of the surface
-//!    have the materials (`systems.rs`).
-//! 2. In each frame (`extract.rs`), and for each view, those of lights too, slices are [chosen](super::choose_fading) for every
-//!    facet, and listed, near ones first among at most 8,192 facets: by the CPU, in parallel, without allocating (`view.rs`,
-//!    `source.rs`, `jobs.rs`). So shadow maps have the slices that their light needs, at a quality of their own
-//!    ([`TexelSettings::shadows`]).
-//!    Of each slice only the box that shows anything is drawn. Lists that would come out as they are already are kept.
+//!    the GPU has in one storage buffer with those of all surfaces (`records.rs`, `room.rs`, `upload.rs`), and the volume
+//!    three pairs of texture arrays (`images.rs`). What is alike is shared (`geometry.rs`, `library.rs`). Children of the
+//!    surface have the materials (`systems.rs`).
+//! 2. In each frame (`extract.rs`), and for each view, those of lights too, slices are [chosen](super::choose_fading) for
+//!    every facet, and listed, near ones first among at most 8,192 facets: by the CPU, in parallel, without allocating
+//!    (`view.rs`, `source.rs`, `jobs.rs`). So shadow maps have the slices that their light needs, at a quality of their own
+//!    ([`TexelSettings::shadows`]). Of each slice only the box that shows anything is drawn. Lists that would come out as
+//!    they are already are kept.
 //! 3. Surfaces of one volume and the same looks are a group (`groups.rs`). Their lists are joined, near surfaces first
-//!    (`lists.rs`), and drawn at once in Bevy's phases in place of meshes (`commands.rs`, `bindings.rs`), when the first of their
-//!    children comes (`leader.rs`): each slice is a strip of four corners that the vertex shader cuts out of the facet's prism
-//!    (`shaders/place.wgsl`, `shaders/facet.wgsl`).
+//!    (`lists.rs`), and drawn at once in Bevy's phases in place of meshes (`commands.rs`, `bindings.rs`), when the first of
+//!    their children comes (`leader.rs`): each slice is a strip of four corners that the vertex shader cuts out of the
+//!    facet's prism (`shaders/place.wgsl`, `shaders/facet.wgsl`).
 //! 4. Fragments are those of one slice: opaque, or discarded (`shaders/look.wgsl`). So they need no sorting, and texels
 //!    that overlap interpenetrate. Depth is drawn first, in the phase of opaque objects; then, in that of masked ones, the
 //!    colours of what is at that depth (`material.rs`), lit by the scene by the volume's normals (`shaders/forward.wgsl`).
 //!    They cast shadows (`shaders/prepass.wgsl`).
 //!
-//! Facets of skinned meshes follow their joints on the CPU, once these are where they are in a frame (`skin.rs`). Of facets that
-//! moved those that changed are written to the GPU (`upload.rs`). Brushes stroke surfaces by their height vectors (`brush.rs`,
-//! `combed.rs`).
+//! Facets of skinned meshes follow their joints on the CPU, once these are where they are in a frame (`skin.rs`). Of facets
+//! that moved those that changed are written to the GPU (`upload.rs`). Brushes stroke surfaces by their height vectors
+//! (`brush.rs`, `combed.rs`).
 //!
 //! # What does not pop
-//! Where twice as many slices will soon be needed, two take the place of each, which show together what it does, and move apart
-//! from there to where they belong. The second best direction fades in where it is nearly as good as the best: each pixel of the
-//! screen draws a lot, and shows the slices whose it is. Either direction alone would do.
+//! Where twice as many slices will soon be needed, two take the place of each, which show together nearly what it does, and
+//! move apart from there to where they belong. The second best direction fades in where it is nearly as good as the best:
+//! each pixel of the screen draws a lot, and shows the slices whose it is. Either direction alone would do.
 //!
 //! # Light on slices
-//! Slices show the inside of things, by up to d (§4.1), and shadow maps have slices too, which stand out towards the light. So what is
-//! seen is lit and shadowed a little above it, or solids would shade themselves in specks (`TexelSettings::stand_off`). Facets of a bent surface are shaded by the mesh's normals, so that they do not show.
+//! Slices show the inside of things, by up to d (§4.1), and shadow maps have slices too, which stand out towards the light.
+//! So what is seen is lit and shadowed a little above it, or solids would shade themselves in specks
+//! (`TexelSettings::stand_off`). Facets of a bent surface are shaded by the mesh's normals, so that they do not show.
 //!
 //! # What it costs
-//! A group of surfaces is three draws for depth and three for colours, one for each axis, where that axis has slices; three in a
-//! shadow map. Settings that split groups are those of light and material, `flexibility`, `inner_slices` and `most_slices`; meshes,
-//! transforms, thickness and quality do not. Where neither the view nor a surface moves, and no wind bends it, nothing is chosen,
-//! listed or written; else all lists of the frame are joined, and what differs of them is written (`mirror.rs`), 32 bytes a slice
-//! ([`TexelStats`] counts them). Light costs what is seen; most of the rest is looking up, slice by slice, what is there, in
-//! shadow maps as well: fewer pixels of these save slices. On a camera with a
-//! [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) that draws the depth. On the GPU a volume has all its sets of
-//! slices, some 64 bytes a voxel.
+//! A group of surfaces is three draws for depth and three for colours, one for each axis, where that axis has slices; three
+//! in a shadow map. Settings that split groups are those of light and material, `flexibility`, `inner_slices` and
+//! `most_slices`; meshes, transforms, thickness and quality do not. Where neither the view nor a surface moves, and no wind
+//! bends it, nothing is chosen, listed or written; else all lists of the frame are joined, and what differs of them is
+//! written (`mirror.rs`), 32 bytes a slice ([`TexelStats`] counts them). Light costs what is seen; most of the rest is
+//! looking up, slice by slice, what is there, in shadow maps as well: fewer pixels of these save slices. On a camera with a
+//! [`DepthPrepass`](bevy::core_pipeline::prepass::DepthPrepass) that draws the depth. On the GPU a volume has all its sets
+//! of slices, some 64 bytes a voxel.
 //!
 //! # What it does not do
 //! Meshes with morph targets carry texels where they are at rest, with a warning. Motion vectors leave skins and wind out.
-//! Cutting a volume into slices takes a second or more for 256×256×64 voxels, in the frame in which it is first shown. A slice
-//! across u or v is a quad, so that texels with height vectors that twist are bent in steps. Deferred cameras draw texels
-//! forward: they are in the depth, normal and motion-vector prepasses, and not in the G-buffer. Where a facet needs more slices
-//! than there are, or height vectors differ much over it, gaps may show: subdivide the mesh. Storage buffers in the vertex stage
-//! are required, so WebGL 2 is out.
+//! Cutting a volume into slices takes a second or more for 256×256×64 voxels, in the frame in which it is first shown. A
+//! slice across u or v is a quad, so that texels with height vectors that twist are bent in steps. Deferred cameras draw
+//! texels forward: they are in the depth, normal and motion-vector prepasses, and not in the G-buffer. Where a facet needs
+//! more slices than there are, or height vectors differ much over it, gaps may show: subdivide the mesh. Storage buffers in
+//! the vertex stage are required, so WebGL 2 is out.
 
 #[cfg(test)]
 mod allocations;

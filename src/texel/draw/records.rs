@@ -128,13 +128,13 @@ pub(crate) fn vertex_buffer() -> VertexBufferLayout {
         VertexFormat::Unorm16x2,
         VertexFormat::Unorm16x4,
     ];
-    let mut layout = VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, formats);
-    layout.array_stride = size_of::<SliceRecord>() as u64;
-    layout
+    VertexBufferLayout::from_vertex_formats(VertexStepMode::Instance, formats)
 }
 
 #[cfg(test)]
 mod tests {
+    use core::mem::offset_of;
+
     use super::super::super::slice_sets::WHOLE;
     use super::*;
 
@@ -142,7 +142,16 @@ mod tests {
     fn records_are_as_long_as_the_shaders_take_them_to_be() {
         assert_eq!(size_of::<FacetRecord>(), 9 * 16);
         assert_eq!(size_of::<SurfaceRecord>(), 7 * 16);
-        assert_eq!(size_of::<SliceRecord>(), 32);
+        let layout = vertex_buffer();
+        assert_eq!(layout.array_stride, size_of::<SliceRecord>() as u64);
+        let offsets = [
+            offset_of!(SliceRecord, facet),
+            offset_of!(SliceRecord, stand_off),
+            offset_of!(SliceRecord, lots),
+            offset_of!(SliceRecord, trim),
+        ];
+        let attributes = layout.attributes.iter();
+        assert!(attributes.map(|at| at.offset as usize).eq(offsets));
     }
 
     #[test]
@@ -152,7 +161,6 @@ mod tests {
                 count,
                 apart: 1.0,
                 lots: [0.0, 1.0],
-                inside: 0.0,
             };
             let record = SliceRecord::new(7, -3, &drawn, 0.0, WHOLE);
             assert_eq!(record.lots, [0, u16::MAX]);

@@ -132,8 +132,8 @@ impl SliceSource {
         from.far(Vec3::from(centre) - from.eye)
     }
 
-    /// Lists the slices that a view has of some facets of a surface placed so, across u, v and w: near facets first, and on each
-    /// the nearest slices, so that they hide the far ones. `order` is for facets to be sorted in.
+    /// Lists the slices that a view has of some facets of a surface placed so, across u, v and w: near facets first, and on
+    /// each the nearest slices, so that they hide the far ones. `order` is for facets to be sorted in.
     pub(crate) fn list(
         &self,
         world_from_local: &Affine3A,
@@ -163,7 +163,7 @@ impl SliceSource {
         } else {
             settings.quality
         };
-        // Shadows are not seen to pop, and stay whole.
+        // Shadows are not seen to pop, and stay whole, of slices in the middles of their layers.
         let fades = settings.fade && !from.is_light;
         let flexibility = settings.limited_flexibility();
         order.clear();
@@ -205,8 +205,7 @@ impl SliceSource {
                 let axis = slices.axis;
                 let range = slice_range(facet.uvs, axis, drawn.count, drawn.apart);
                 let most = self.volume.measure.most[axis.index()];
-                let inner = settings.inner_slices(drawn.count, most);
-                let stand_off = settings.stand_off(drawn.inside, slices.thickness, inner);
+                let stand_off = settings.stand_off(&slices, &drawn, most);
                 let record = |slice| {
                     let trim = if settings.empty_slices {
                         WHOLE

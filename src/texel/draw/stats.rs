@@ -7,8 +7,8 @@ use bevy::prelude::*;
 pub struct TexelStats {
     /// Slices of all surfaces in all views, those of lights too.
     pub slices: usize,
-    /// Runs of slices that are drawn at once: one for each view, group of surfaces that share looks, and axis across which it
-    /// has slices. Colours are a draw of each, and so is depth; shadow maps and prepasses are one draw.
+    /// Runs of slices that are drawn at once: one for each view, group of surfaces that share looks, and axis across which
+    /// it has slices. Colours are a draw of each, and so is depth; shadow maps and prepasses are one draw.
     pub draws: usize,
     /// Lists that were made in this frame, of at most 8,192 facets of a surface in a view each. The others are those of
     /// the frame before.

@@ -200,8 +200,8 @@ pub(crate) fn attach(
     }
 }
 
-/// Follows meshes and volumes that were edited, reloaded, or taken away and put back. Until then what was made of them stays on
-/// screen.
+/// Follows meshes and volumes that were edited, reloaded, or taken away and put back. Until then what was made of them stays
+/// on screen.
 pub(crate) fn follow_assets(
     mut meshes: EditedAssets<Mesh>,
     mut volumes: EditedAssets<TexelVolume>,

@@ -7,7 +7,8 @@ use crate::wind::sway;
 /// A height vector that bends in the wind, and keeps its length: at `foot` in world space, `time` seconds on. Each metre a
 /// second of `velocity` moves the top by up to `flexibility` heights, if it is across.
 ///
-/// It turns by less than a right angle. One that leans far already may be led through its facet so; such facets are not drawn.
+/// It turns by less than a right angle. One that leans far already may be led through its facet so; such facets are not
+/// drawn.
 pub fn bend(foot: Vec3, height: Vec3, velocity: Vec3, flexibility: f32, time: f32) -> Vec3 {
     if flexibility == 0.0 || velocity == Vec3::ZERO {
         return height;

@@ -5,11 +5,11 @@ use bevy::math::Vec3;
 /// How far what is combed stays above the surface: the sine of the least angle to it, 11.5°.
 const LEAST_RISE: f32 = 0.2;
 
-/// A height vector that is laid down towards `lean`, and keeps its length: by a share of the way to where it nearly lies on a
-/// surface of this unit `normal`. A share below 0 or above 1 is taken for the nearest, and no number for 0.
+/// A height vector that is laid down towards `lean`, and keeps its length: by a share of the way to where it nearly lies on
+/// a surface of this unit `normal`. A share below 0 or above 1 is taken for the nearest, and no number for 0.
 ///
-/// It comes no nearer to the surface than 11.5°, or than it was. One that leads through the surface or is no number stays as it
-/// is, and so does any where `lean` is straight up or down, zero or no number.
+/// It comes no nearer to the surface than 11.5°, or than it was. One that leads through the surface or is no number stays as
+/// it is, and so does any where `lean` is straight up or down, zero or no number.
 pub fn comb(height: Vec3, normal: Vec3, lean: Vec3, share: f32) -> Vec3 {
     let along = (lean - normal * lean.dot(normal)).try_normalize();
     let (Some(upright), Some(along)) = (height.try_normalize(), along) else {

@@ -5,8 +5,8 @@
 //! Σ bᵢ·(Aᵢ + w·Hᵢ). Texture coordinates are Σ bᵢ·(uᵢ, vᵢ), and repeat with 1, so that a facet may carry a part of a
 //! texel or many.
 //!
-//! `bend` has height vectors in the wind, and `comb` those that are stroked; `frame` has the directions in which u, v and w grow
-//! there; `slicing` cuts the prism into slices; `surface` makes facets of a mesh.
+//! `bend` has height vectors in the wind, and `comb` those that are stroked; `frame` has the directions in which u, v and w
+//! grow there; `slicing` cuts the prism into slices; `surface` makes facets of a mesh.
 
 mod bend;
 mod comb;

@@ -5,8 +5,8 @@
 //! next copies of the texture, which show slice k mod N. Mirrored and rotated textures need nothing more, for all is
 //! done in texture coordinates.
 //!
-//! Where the number doubles nothing jumps: the two slices that take the place of one begin where that was, and move apart to where
-//! they belong (as the vertices of H. Hoppe, *Progressive Meshes*, 1996, §3.2, move in a geomorph).
+//! Where the number doubles nothing jumps: the two slices that take the place of one begin where that was, and move apart to
+//! where they belong (as the vertices of H. Hoppe, *Progressive Meshes*, 1996, §3.2, move in a geomorph).
 
 use std::ops::Range;
 
@@ -22,8 +22,8 @@ fn along(axis: SliceAxis, uv: Vec2) -> f32 {
     }
 }
 
-/// The numbers k of all slices that cut a facet, for N slices a texel, which are where [`slice_position`] has them: along u or
-/// v those of which [`slice_line`] finds a line, along w all N. Numbers beyond those of an `i32` are left out.
+/// The numbers k of all slices that cut a facet, for N slices a texel, which are where [`slice_position`] has them: along u
+/// or v those of which [`slice_line`] finds a line, along w all N. Numbers beyond those of an `i32` are left out.
 pub fn slice_range(uvs: [Vec2; 3], axis: SliceAxis, count: u32, apart: f32) -> Range<i32> {
     if axis == SliceAxis::W {
         return 0..count as i32;
@@ -42,8 +42,8 @@ pub fn slice_range(uvs: [Vec2; 3], axis: SliceAxis, count: u32, apart: f32) -> R
     first_above(low)..first_above(high).max(first_above(low))
 }
 
-/// Where u, v or w of slice k of N is, if two that lie in one of half as many slices are moved so far `apart` from the middle
-/// of that one: 0 to 1, at which they are all evenly spaced.
+/// Where u, v or w of slice k of N is, if two that lie in one of half as many slices are moved so far `apart` from the
+/// middle of that one: 0 to 1, at which they are all evenly spaced.
 pub fn slice_position(slice: i32, count: u32, apart: f32) -> f32 {
     let (even, odd) = (slice & !1, slice & 1);
     (even as f32 + 1.0 + (odd as f32 - 0.5) * apart) / count as f32

@@ -7,8 +7,8 @@ use super::super::choose::DrawnSlices;
 use super::super::facet::{slice_line, slice_position};
 use super::SliceSets;
 
-/// Pixels of its level by which a box is larger than what is opaque: filtering shows half a pixel more, and samples beside the
-/// middle of a pixel of the screen, of which one covers at most 1.5 of them, as much again.
+/// Pixels of its level by which a box is larger than what is opaque: filtering shows half a pixel more, and samples beside
+/// the middle of a pixel of the screen, of which one covers at most 1.5 of them, as much again.
 const MARGIN: f32 = 2.0;
 
 /// Columns and rows of a slice, from 0 to 1 for one texel, between which all that is opaque lies.
@@ -159,8 +159,8 @@ fn union(a: Option<SliceBox>, b: Option<SliceBox>) -> Option<SliceBox> {
     }
 }
 
-/// What of the values from `low` to `high` lies between the first and the last that is from `from` to `to`, or a whole number
-/// more or less; none if nothing is.
+/// What of the values from `low` to `high` lies between the first and the last that is from `from` to `to`, or a whole
+/// number more or less; none if nothing is.
 fn repeated(low: f32, high: f32, from: f32, to: f32) -> Option<(f32, f32)> {
     // The last copy that begins before.
     let copy = |value: f32| (value - from).floor();
@@ -199,7 +199,6 @@ mod tests {
             count,
             apart: 1.0,
             lots: [0.0, 1.0],
-            inside: 0.0,
         }
     }
 
@@ -242,11 +241,11 @@ mod tests {
                 let axis = SliceAxis::ALL[upright];
                 let set = sets.get(axis, 1 << exponent);
                 let uvs = uvs.map(Vec2::from);
+                let apart = if set.count > 1 { apart } else { 1.0 };
                 let drawn = DrawnSlices {
-                    apart: if set.count > 1 { apart } else { 1.0 },
+                    apart,
                     ..drawn(set.count)
                 };
-                let apart = drawn.apart;
                 let range = crate::texel::facet::slice_range(uvs, axis, set.count, apart);
                 if range.is_empty() {
                     return Ok(());
@@ -296,7 +295,7 @@ mod tests {
     fn much_of_a_sparse_volume_is_cut_off_from_near_by_and_little_from_afar() {
         let boxes = SliceBoxes::of(&sets());
         let uvs = [Vec2::ZERO, Vec2::X, Vec2::Y];
-        let drawn = |footprint: f32| -> f32 {
+        let area = |footprint: f32| -> f32 {
             let trims = (0..32).filter_map(|slice| {
                 boxes.trim(uvs, SliceAxis::U, slice, &drawn(32), Vec2::splat(footprint))
             });
@@ -304,7 +303,7 @@ mod tests {
                 .map(|[from, to, ..]| f32::from(to - from) / 65_535.0)
                 .sum()
         };
-        let (near, far) = (drawn(0.0), drawn(1.0));
+        let (near, far) = (area(0.0), area(1.0));
         // Both ends of each slice are rounded outwards, by up to one of 65,535.
         assert!(
             near <= 0.5 * far + 64.0 / 65_535.0 && far <= 32.0,

@@ -6,8 +6,8 @@
 //! Mipmaps*, 2010, with a rank in place of a threshold, so that the number is exact). What rounding takes from one
 //! slice the next one gets, so that thin volumes do not vanish. Ties go round by a lattice of low discrepancy.
 //!
-//! Sets are nested as at level 0: what is opaque in a slice is so in one of the two that it is merged of, or in both. Else each
-//! count would show other pixels, and what is looked for in the layer of a slice would not be there.
+//! Sets are nested as at level 0: what is opaque in a slice is so in one of the two that it is merged of, or in both. Else
+//! each count would show other pixels, and what is looked for in the layer of a slice would not be there.
 
 use super::super::parallel;
 use super::half::{half, halved};

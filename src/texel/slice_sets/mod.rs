@@ -7,8 +7,8 @@
 //!
 //! Slice k of N stands in the middle of its layer, at (k + ½)/N.
 //!
-//! In mip levels `choice.rs` tells which pixels are opaque, for all counts at once, and `mips.rs` what they show. `boxes.rs` finds where a
-//! slice shows anything.
+//! In mip levels `choice.rs` tells which pixels are opaque, for all counts at once, and `mips.rs` what they show. `boxes.rs`
+//! finds where a slice shows anything.
 
 mod boxes;
 mod choice;

@@ -8,8 +8,8 @@ use bevy_verdure::prelude::*;
 
 use super::{CROWN, SIZE, UNLIT, baked, eye, mean, plant, plant_mesh, shot, sun};
 
-/// How much lighter the middle of a crown is on screen before something `bright` than before black, from so many degrees off an
-/// orientation: before white, the share of light that comes through.
+/// How much lighter the middle of a crown is on screen before something `bright` than before black, from so many degrees off
+/// an orientation: before white, the share of light that comes through.
 fn through(studio: &mut Studio, angle: f32, bright: Color) -> f64 {
     let (low, high) = (3 * SIZE / 8, 5 * SIZE / 8);
     let all = [0.0, 120.0, 240.0].map(|azimuth| {

@@ -224,8 +224,8 @@ fn light_comes_through_the_leaves_of_crowns_as_of_their_meshes() {
             // The lit side gives up some, the other side gains as much.
             assert!(leafy[0] < solid[0] && leafy[1] > 1.1 * solid[1]);
         }
-        // In shadow maps a crown is leaves at depths by chance, of which more light comes through than through these few, large ones:
-        // on the side turned from the sun by up to a quarter.
+        // In shadow maps a crown is leaves at depths by chance, of which more light comes through than through these few,
+        // large ones: on the side turned from the sun by up to a quarter.
         for side in 0..2 {
             let gain = [0, 1].map(|of| leafy[of][side] / solid[of][side]);
             println!(

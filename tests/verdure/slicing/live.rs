@@ -112,8 +112,8 @@ fn flutter(index: usize) -> f64 {
 fn slices_near_to_the_eye_flutter_and_far_ones_hardly() {
     let [far, near] = [0, 4].map(flutter);
     println!("most over least: the furthest slice {far:.3}, the nearest {near:.3}");
-    // By a quarter times nearness, which is 0.1 and 0.9: 1.05 and 1.58. A picture that is a frame older than its time is taken to be sees
-    // gusts that are up to 3 % more or less.
+    // By a quarter times nearness, which is 0.1 and 0.9: 1.05 and 1.58. A picture that is a frame older than its time is
+    // taken to be sees gusts that are up to 3 % more or less.
     assert!(far < 1.2, "{far}");
     assert!(near > 1.35, "{near}");
 }

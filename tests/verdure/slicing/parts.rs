@@ -1,4 +1,5 @@
-//! The discrepancy angle part by part, up close (§4): what changes from frame to frame, and whether it is nearer to the mesh.
+//! The discrepancy angle part by part, up close (§4): what changes from frame to frame, and whether it is nearer to the
+//! mesh.
 
 use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Shot, Studio, mean_flip};

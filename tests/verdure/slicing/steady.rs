@@ -53,7 +53,8 @@ fn a_lit_crown_shimmers_less_than_its_mesh_on_a_slow_walk() {
     // Or shadows would begin on the way.
     sun_to(&mut slices, 60.0);
     sun_to(&mut mesh, 60.0);
-    // Past sizes at which one mip level gives over to the next: the slices' 64 pixels are 100 on screen at first, 25 at last.
+    // Past sizes at which one mip level gives over to the next: the slices' 64 pixels are 100 on screen at first, 25 at
+    // last.
     for (from, step) in [(10.0, 0.02), (20.0, 0.05), (40.0, 0.1)] {
         let (largest, median) = walk(&mut slices, from, step);
         let (_, of_mesh) = walk(&mut mesh, from, step);

@@ -4,6 +4,7 @@ use bevy::anti_alias::taa::TemporalAntiAliasing;
 use bevy::core_pipeline::prepass::{DeferredPrepass, DepthPrepass};
 use bevy::light::NotShadowCaster;
 use bevy::prelude::*;
+use bevy::render::camera::TemporalJitter;
 use bevy_verdure::lab::mean_flip;
 use bevy_verdure::prelude::*;
 
@@ -57,6 +58,34 @@ fn temporal_anti_aliasing_keeps_hashed_crowns_where_they_are_and_smooths_them() 
     println!("from the blended crown: hashed {plain:.4}, gathered over frames {gathered:.4}");
     // Nothing is smeared or lost, and grain goes: were lots the same in each frame, nine tenths of the error would stay.
     assert!(gathered < 0.85 * plain, "{gathered} {plain}");
+}
+
+#[test]
+fn lots_change_from_frame_to_frame_for_cameras_that_gather_them_and_stay_for_others() {
+    let look = shot(eye(20.0, 10.0, 16.0));
+    let (mut studio, _) = studio(HASHED);
+    let camera = studio.camera();
+    let mut changes = |jitter: Option<Vec2>, is_alone: bool| {
+        let mut camera = studio.world().entity_mut(camera);
+        camera.remove::<TemporalJitter>();
+        if let Some(offset) = jitter {
+            camera.insert(TemporalJitter { offset });
+        }
+        let other = (!is_alone).then(|| studio.world().spawn(Camera3d::default()).id());
+        let mut photograph = || studio.photograph(&look, Color::WHITE).rgb_bytes();
+        let changes = photograph() != photograph();
+        if let Some(other) = other {
+            studio.world().despawn(other);
+        }
+        changes
+    };
+    assert!(!changes(None, true));
+    // Bevy's jitter is zero in one frame of eight.
+    for jitter in [Vec2::ZERO, Vec2::new(0.4, -0.3)] {
+        assert!(changes(Some(jitter), true), "{jitter}");
+    }
+    assert!(changes(Some(Vec2::new(0.4, -0.3)), false));
+    assert!(!changes(None, false));
 }
 
 #[test]

@@ -120,10 +120,10 @@ fn texels_have_as_much_fog_before_them_as_an_ordinary_mesh() {
     let clear = pictures(&mut studio, both);
     fog(&mut studio, FOG);
     let foggy = pictures(&mut studio, both);
-    // Slices are half a 32nd of the height below the plane, 7 mm along the flattest ray. Fog is that of the place where light is
-    // received, above them: by HEIGHT/32·tan(a) with tan(a) ≤ 2.6 at the corners, and an eighth of e, 8 of 32 voxels, which is
-    // 52 mm together and less along rays. Half a byte of green is 0.004 where fog is four fifths, in both pictures; GPUs may
-    // round by a fifth more, and clear ones are rounded too.
+    // Slices are half a 32nd of the height below the plane, 7 mm along the flattest ray. Fog is that of the place where
+    // light is received, above them: by HEIGHT/32·tan(a) with tan(a) ≤ 2.6 at the corners, and an eighth of e, 8 of 32
+    // voxels, which is 52 mm together and less along rays. Half a byte of green is 0.004 where fog is four fifths, in both
+    // pictures; GPUs may round by a fifth more, and clear ones are rounded too.
     let bound = 0.05 / (FOG[1] - FOG[0]) + 0.011;
     let (mut least, mut most, mut worst) = (1.0f32, 0.0f32, 0.0f32);
     for (x, y) in (0..SIZE.y).flat_map(|y| (0..SIZE.x).map(move |x| (x, y))) {

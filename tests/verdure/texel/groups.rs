@@ -259,7 +259,7 @@ fn only_slices_that_change_are_written() {
         .expect("it has one");
     place.rotate_y(0.5);
     let turned = stats(&mut studio);
-    // Its slices across three axes, in blocks of which each begins anew, and where surfaces are; not those of the other groups.
+    // Its slices across three axes, one block each, and where surfaces are; not those of the other groups.
     let most = 3 * BLOCK + COUNT * SURFACE;
     assert!(turned.list_bytes <= most, "{turned:?}");
     assert!(turned.list_bytes < turned.slices * 32, "{turned:?}");

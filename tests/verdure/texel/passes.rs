@@ -82,8 +82,8 @@ pub fn mean(picture: &Pixels) -> f64 {
     bytes.iter().map(|&byte| f64::from(byte)).sum::<f64>() / bytes.len() as f64
 }
 
-/// Which pixels show what the sun reaches, by rays marched in double precision: from there to the sun nothing is further away than
-/// two voxels, which are the place's own.
+/// Which pixels show what the sun reaches, by rays marched in double precision: from there to the sun nothing is further
+/// away than two voxels, which are the place's own.
 fn sunlit(shot: &Shot) -> Vec<bool> {
     let facets = Square::default().facets(&Transform::IDENTITY);
     let references = facets.map(|facet| reference(&facet));
@@ -134,8 +134,8 @@ fn texels_cast_shadows_on_the_ground_and_do_not_darken_themselves() {
         let color = picture.rgb(i as u32 % SIZE.x, i as u32 / SIZE.x);
         color.map(u32::from).iter().sum::<u32>()
     };
-    // Normals that differ leave a little light on what faces away from the sun, which its own shadow takes: acne is what darkens
-    // by a tenth of the usual light.
+    // Normals that differ leave a little light on what faces away from the sun, which its own shadow takes: acne is what
+    // darkens by a tenth of the usual light.
     let usual = pixels.iter().map(|&i| light(&unshadowed, i)).sum::<u32>() / pixels.len() as u32;
     let darkened = pixels
         .iter()

@@ -119,8 +119,8 @@ fn what_is_seen_in_the_layer_of_a_slice_makes_light_as_exact_as_more_slices() {
 
 #[test]
 fn what_shows_nothing_of_slices_is_left_out_and_not_missed() {
-    // Bushes stand on flat facets: their slices are the same planes, but corners of what is left of them are rounded anew. On
-    // the ball of pears height vectors twist, and smaller quads follow them more closely.
+    // Bushes stand on flat facets: their slices are the same planes, but corners of what is left of them are rounded anew.
+    // On the ball of pears height vectors twist, and smaller quads follow them more closely.
     for (scene, most) in [(TexelScene::Bushes, 0.001), (TexelScene::Pears, 0.01)] {
         let mut stand = TexelStand::open(scene).expect("the scene is built");
         let shot = shot(scene);

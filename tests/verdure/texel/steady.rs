@@ -31,15 +31,15 @@ fn nothing_pops_where_changes_fade() {
         largest / median
     };
     let (fading, popping) = (ratio(true), ratio(false));
-    // Without a pop there would be nothing to compare with. It is of outlines: what is seen in the layers of slices hardly changes
-    // with their count.
+    // Without a pop there would be nothing to compare with. It is of outlines: what is seen in the layers of slices hardly
+    // changes with their count.
     assert!(popping > 1.5 * fading, "{popping} {fading}");
     // Motion itself differs by half as much again over the flight, and dither adds to it while it goes on.
     assert!(fading < 3.0, "{fading}");
 }
 
-/// The largest change between neighbouring pictures of an eye that stands still, while it is content with ever fewer slices, down
-/// to half as many: where nothing moves only what pops, or moves apart, changes.
+/// The largest change between neighbouring pictures of an eye that stands still, while it is content with ever fewer slices,
+/// down to half as many: where nothing moves only what pops, or moves apart, changes.
 fn coarsen(fade: bool) -> f64 {
     let mut studio = Studio::default();
     let surface = cover_default(&mut studio, unlit());

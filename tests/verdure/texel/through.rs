@@ -1,8 +1,8 @@
 //! Texels and ordinary meshes that run through one another: whichever is nearer is seen.
 //!
-//! All slices are drawn, 1/32 apart, across the axis along which the eye looks. A ray that enters the solid box of the volume meets
-//! one at the latest where it has gone from slice to slice, unless it has left the box before. So the box alone tells what is
-//! seen, but for rays that meet the mesh in between.
+//! All slices are drawn, 1/32 apart, across the axis along which the eye looks. A ray that enters the solid box of the
+//! volume meets one at the latest where it has gone from slice to slice, unless it has left the box before. So the box alone
+//! tells what is seen, but for rays that meet the mesh in between.
 
 use bevy::core_pipeline::prepass::DepthPrepass;
 use bevy::math::DVec3;
@@ -19,11 +19,12 @@ use super::{BACKGROUND, SIDE, cover_default, rays, shot};
 const LOW: DVec3 = DVec3::new(0.25, 0.0, -0.75);
 const HIGH: DVec3 = DVec3::new(0.75, 0.75, -0.25);
 
-/// How far inside a box is opaque for certain, in metres: filters round the edges of a slice off, but 0.3 voxels inside of two of
-/// its sides a place has 0.8 of 0.8, more than a half.
+/// How far inside a box is opaque for certain, in metres: filters round the edges of a slice off, but 0.3 voxels inside of
+/// two of its sides a place has 0.8 of 0.8, more than a half.
 const INSIDE: f64 = 0.3 / SIDE as f64;
 
-/// How far rounding may move a face, in metres: a tenth of a pixel, where depths and filters are off by less than a hundredth.
+/// How far rounding may move a face, in metres: a tenth of a pixel, where depths and filters are off by less than a
+/// hundredth.
 const ROUNDING: f64 = 1e-3;
 
 /// The brightest channel of a pixel of the mesh, of a texel, and of neither.
@@ -49,7 +50,8 @@ fn solid_box() -> TexelVolume {
     built.expect("the volume is in range").volume.into()
 }
 
-/// Ordinary meshes, cuboids of some size: two thin slabs through the middle of the box, and a bar that comes out of its front.
+/// Ordinary meshes, cuboids of some size: two thin slabs through the middle of the box, and a bar that comes out of its
+/// front.
 fn cuboids() -> [(&'static str, Vec3, Transform); 3] {
     let slab = |normal: Vec3| {
         let middle = (0.5 * (LOW + HIGH)).as_vec3();

@@ -43,7 +43,8 @@ fn fragment(in: Varying) {
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4<f32> {
     let own = slice_normal_and_alpha(in);
-    // Slices of another surface may lie at the same depth. They are blended away: to discard them costs software drivers more.
+    // Slices of another surface may lie at the same depth. They are blended away: to discard them costs software drivers
+    // more.
     let is_seen = covered_samples(in, own.a) != 0u;
     let inner = look_inside(in, own);
     let seen = inner.color;

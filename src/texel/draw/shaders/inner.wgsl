@@ -2,11 +2,12 @@
 
 // What is seen in the layer of a slice.
 //
-// A slice shows what is in its layer as if all of it were where the slice is, mostly the middle, up to h/2·tan(a) aside of that. Which slices
-// are where does with that; colours, normals and shadows, which change from pixel to pixel, would shimmer. So what is seen is
-// looked for along the view in the finer slices of the same layer, as relief maps are (F. Policarpo et al., *Real-Time Relief
-// Mapping on Arbitrary Polygonal Surfaces*, 2005): once a pixel, after depth is drawn. Sets of slices are nested, so that it
-// takes one look to halve a layer, and not one for each slice in it.
+// A slice shows what is in its layer as if all of it were where the slice is: up to h/2·tan(a) aside, where that is the
+// middle, and up to twice as far, where two begin to move apart from between their layers. Which slices are where does with
+// that; colours, normals and shadows, which change from pixel to pixel, would shimmer. So what is seen is looked for along
+// the view in the finer slices of the same layer, as relief maps are (F. Policarpo et al., *Real-Time Relief Mapping on
+// Arbitrary Polygonal Surfaces*, 2005): once a pixel, after depth is drawn. Sets of slices are nested, so that it takes one
+// look to halve a layer, and not one for each slice in it.
 
 #import bevy_verdure::texel::place::{AXIS, Varying}
 #import bevy_verdure::texel::types::{color_texture, level_sampler, normal_texture, slice_sampler, texels}

@@ -23,8 +23,8 @@ struct Corner {
     // The facet, the number of the slice, and, of how many a texel it is one, the exponent, in the lowest 5 bits, below the
     // number of the surface.
     @location(0) slice: vec3<u32>,
-    // How far above the place that is seen light falls on it, and how far apart it has moved from the one with which it takes the
-    // place of a coarser one.
+    // How far above the place that is seen light falls on it, and how far apart it has moved from the one with which it
+    // takes the place of a coarser one.
     @location(1) look: vec2<f32>,
     // Which pixels are its, from one lot to another.
     @location(2) lots: vec2<f32>,
@@ -88,8 +88,8 @@ fn facet_from_eye(index: u32, turn: mat3x3<f32>, origin: vec3<f32>) -> Facet {
     );
 }
 
-// A height vector in the wind: as long as it was. It moves across itself, and turns by less than a right angle. One that leans
-// may be led through the surface so, or across another: facets of which one is have no slices (source.rs).
+// A height vector in the wind: as long as it was. It moves across itself, and turns by less than a right angle. One that
+// leans may be led through the surface so, or across another: facets of which one is have no slices (source.rs).
 fn bend(foot: vec3<f32>, height: vec3<f32>) -> vec3<f32> {
     if texels.wind.w == 0.0 || all(texels.wind.xyz == vec3(0.0)) {
         return height;
@@ -104,8 +104,9 @@ fn bend(foot: vec3<f32>, height: vec3<f32>) -> vec3<f32> {
 
 #ifdef TEXEL_DIRECTIONAL_LIGHT
 
-// From the middle of the layer of a slice to that of the finest one at its end away from the light. A slice is as wide as what is
-// widest in its layer: at that end it stands out of nothing that narrows towards the light, and so is what is lit.
+// From the middle of the layer of a slice to that of the finest one at its end away from the light. A slice is as wide as
+// what is widest in its layer: at that end it stands out of nothing that narrows towards the light, and so is what is lit.
+// Slices that a light sees never move apart (source.rs), so that each is in the middle of its layer.
 fn away_from_light(frame: TexelFrame, count: u32) -> vec3<f32> {
     let most = f32((textureNumLayers(normal_texture) + 1u) / 2u);
     let along = in_frame(frame, view_direction(vec3(0.0)))[AXIS];
