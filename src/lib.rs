@@ -53,7 +53,8 @@ pub mod prelude {
     };
     pub use crate::slicing::{
         BakeSettings, Composition, CrownMaterial, CrownMesh, CrownSettings, CrownTint,
-        DiscrepancyAngle, Orientations, SliceOrder, SlicedCrown, Slicing, SlicingCompression, bake,
+        DiscrepancyAngle, IntersectingCrown, Orientations, SliceOrder, SlicedCrown, Slicing,
+        SlicingCompression, bake,
     };
     pub use crate::texel::{
         ATTRIBUTE_HEIGHT_VECTOR, LiveTexels, StrokedTexels, TexelBrush, TexelCycle, TexelHeights,

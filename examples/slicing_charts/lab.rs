@@ -38,6 +38,8 @@ pub enum Drawn {
     /// Not at all: trunk and limbs alone.
     Bare,
     Slicing(Handle<Slicing>, CrownSettings),
+    /// In bands, as crowns are that may intersect.
+    InBands(Handle<Slicing>, CrownSettings),
     /// A quad turned to the eye.
     Impostor(Impostor),
     /// Flat pictures.
@@ -172,6 +174,9 @@ impl Lab {
             }
             Drawn::Slicing(slicing, settings) => {
                 tree.spawn((SlicedCrown(slicing.clone()), *settings));
+            }
+            Drawn::InBands(slicing, settings) => {
+                tree.spawn((SlicedCrown(slicing.clone()), *settings, IntersectingCrown));
             }
         });
         tree.id()

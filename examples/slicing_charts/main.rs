@@ -52,7 +52,7 @@ struct Args {
 /// A chart of its name.
 type Experiment = (&'static str, fn(&mut Lab) -> Result<Chart, String>);
 
-const EXPERIMENTS: [Experiment; 22] = [
+const EXPERIMENTS: [Experiment; 23] = [
     ("slicing_cost", cost::against_trees),
     ("slicing_parts", parts::against_trees),
     ("slicing_switches", switches::error_against_cost),
@@ -75,6 +75,7 @@ const EXPERIMENTS: [Experiment; 22] = [
     ("slicing_inside", near::inside),
     ("slicing_perspective", near::perspective),
     ("slicing_intersecting", intersecting::against_overlap),
+    ("slicing_bands", intersecting::cost_of_bands),
 ];
 
 fn main() -> Result<(), String> {

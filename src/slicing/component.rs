@@ -67,6 +67,14 @@ pub struct CrownSettings {
     pub frames: bool,
 }
 
+/// Marks a [`SlicedCrown`] that may intersect others, as in a dense forest. Where it is blended, and near enough to show more
+/// than one slice of an orientation, it is drawn in bands, far to near, sorted among those of other crowns that are marked, so
+/// that little changes where two of them change their order. The plugin spawns its bands as children; there are as many as
+/// slices of an orientation, up to 16, and each is an item to be sorted.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
+pub struct IntersectingCrown;
+
 /// What one discrepancy angle (§2.3) holds for, where the eye is less than 3 radii from a crown's centroid. In the paper's
 /// order, over the sphere, in orthographic views and from further away it is always the whole crown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Reflect)]

@@ -1,5 +1,7 @@
 //! What is on the GPU for the slicings in use, and the systems that keep it up to date.
 
+use std::sync::Arc;
+
 use bevy::asset::AssetId;
 use bevy::asset::prelude::AssetChanged;
 use bevy::camera::Hdr;
@@ -13,16 +15,17 @@ use bevy::render::camera::TemporalJitter;
 use bevy::render::renderer::RenderDevice;
 use bevy::render::storage::ShaderBuffer;
 
+use super::bands::CrownBands;
 use super::blend::{PART_SLOTS, SLOTS, widest};
 use super::component::{CrownSettings, CrownTint, SlicedCrown};
 use super::compression::SlicingCompression;
 use super::gather::Placed;
 use super::limits::MAX_LAYERS;
 use super::material::{Gathering, SlicedCrownMaterial};
-use super::mesh::crown_mesh;
+use super::mesh::{bands, crown_mesh, most_slices};
 use super::near::Nearness;
 use super::set::{CrownSet, SetKind, SetSource};
-use super::slicing::Slicing;
+use super::slicing::{Slicing, SlicingShape};
 use super::upload::{bounds, data};
 use crate::edited_assets::EditedAssets;
 use crate::lighting::SceneLights;
@@ -38,15 +41,32 @@ pub(crate) type Look = (Mesh3d, MeshMaterial3d<SlicedCrownMaterial>);
 pub(crate) struct Shared {
     /// For crowns far away, and near by.
     meshes: [Handle<Mesh>; 2],
+    /// The same in bands, far to near, if any crown was drawn in them.
+    bands: HashMap<Nearness, Vec<Handle<Mesh>>>,
+    pub(crate) shape: Arc<SlicingShape>,
+    /// Its place in the set.
+    place: u32,
     bounds: Aabb,
-    /// The centroid, local, and the radius.
-    pub(crate) ball: (Vec3, f32),
     /// Whether parts may be seen from directions of their own.
     pub(crate) has_parts: bool,
     layers: u32,
     age: u32,
     /// What it is drawn from.
     set: u32,
+}
+
+impl Shared {
+    /// The meshes of bands, far to near.
+    fn bands(&mut self, nearness: Nearness, meshes: &mut Assets<Mesh>) -> &[Handle<Mesh>] {
+        let shape = &self.shape;
+        let place = self.place;
+        self.bands.entry(nearness).or_insert_with(|| {
+            let slots = SLOTS_BY_NEARNESS[usize::from(nearness.is_near)];
+            let bands = bands(shape, slots, nearness.ranks);
+            let mut mesh = |slices| meshes.add(crown_mesh(shape, slices, place));
+            bands.map(&mut mesh).collect()
+        })
+    }
 }
 
 /// A set on its way to the GPU, from which nothing is drawn yet.
@@ -131,11 +151,17 @@ impl CrownLibrary {
                 set.ensure(*settings, wind, &mut assets.materials);
             }
             let shape = slicing.shape();
-            let mesh = |slots| assets.meshes.add(crown_mesh(shape, slots, place as u32));
+            let place = place as u32;
+            let mesh = |slots| {
+                let slices = 0..most_slices(shape, slots);
+                assets.meshes.add(crown_mesh(shape, slices, place))
+            };
             let own = Shared {
                 meshes: SLOTS_BY_NEARNESS.map(mesh),
+                bands: default(),
+                shape: Arc::new(shape.clone()),
+                place,
                 bounds: bounds(slicing),
-                ball: (shape.centroid, shape.radius),
                 has_parts: widest(shape) > 0.0,
                 layers: shape.layers() as u32,
                 age: before.map_or(id, |before| before.age),
@@ -201,18 +227,32 @@ impl CrownLibrary {
         }
     }
 
-    /// What a crown is drawn with, far away or near by; nothing before it was given anything.
+    /// What a crown is drawn with, far away or near by, whole or its furthest band; nothing before it was given anything.
     pub(crate) fn look(
-        &self,
+        &mut self,
         id: AssetId<Slicing>,
         settings: &CrownSettings,
-        is_near: bool,
+        nearness: Nearness,
+        meshes: &mut Assets<Mesh>,
     ) -> Option<Look> {
-        let shared = self.shared.get(&id)?;
+        let shared = self.shared.get_mut(&id)?;
         let materials = self.sets.get(&shared.set)?.materials(settings)?;
-        let i = usize::from(is_near);
-        let mesh = Mesh3d(shared.meshes[i].clone());
-        Some((mesh, MeshMaterial3d(materials[i].clone())))
+        let i = usize::from(nearness.is_near);
+        let mesh = if nearness.is_in_bands() {
+            &shared.bands(nearness, meshes)[0]
+        } else {
+            &shared.meshes[i]
+        };
+        Some((Mesh3d(mesh.clone()), MeshMaterial3d(materials[i].clone())))
+    }
+
+    /// The meshes of bands that have been drawn, far to near.
+    pub(crate) fn bands(&self, id: AssetId<Slicing>, nearness: Nearness) -> &[Handle<Mesh>] {
+        let bands = self
+            .shared
+            .get(&id)
+            .and_then(|shared| shared.bands.get(&nearness));
+        bands.map_or(&[], |bands| bands)
     }
 
     /// Slicings, and what they are drawn from.
@@ -287,9 +327,10 @@ pub(crate) fn attach(
             library.settle_alone(id, slicing, wind, &mut assets);
         }
         library.ensure(id, *settings, wind, &mut assets);
-        if let Some(look) = library.look(id, settings, false) {
+        let nearness = Nearness::default();
+        if let Some(look) = library.look(id, settings, nearness, &mut assets.meshes) {
             let bounds = library.shared[&id].bounds;
-            let drawn = (look, bounds, Nearness::default());
+            let drawn = (look, bounds, nearness);
             commands.entity(entity).try_insert(drawn);
         }
     };
@@ -417,9 +458,16 @@ pub(crate) fn tint(mut crowns: Query<(Entity, &CrownTint, &mut MeshTag), Changed
 }
 
 /// Stops drawing an entity that is a crown no more.
-pub(crate) fn uproot(removed: On<Remove, SlicedCrown>, mut commands: Commands) {
+pub(crate) fn uproot(
+    removed: On<Remove, SlicedCrown>,
+    in_bands: Query<&CrownBands>,
+    mut commands: Commands,
+) {
+    if let Ok(bands) = in_bands.get(removed.entity) {
+        bands.despawn(&mut commands);
+    }
     if let Ok(mut entity) = commands.get_entity(removed.entity) {
-        entity.try_remove::<(Look, Aabb, Nearness)>();
+        entity.try_remove::<(Look, Aabb, Nearness, CrownBands)>();
     }
 }
 

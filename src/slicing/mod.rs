@@ -44,13 +44,15 @@
 //! * Levels of fewer slices take over with distance, faded into one another.
 //! * Directional lights see one slice that faces them, whose leaves lie at depths by chance ([`blend::first_leaf`]).
 //! * Right up close a crown can give over to its mesh ([`close_up()`]), which §4 asks for.
+//! * Crowns that intersect can be drawn in bands that are sorted each by itself ([`IntersectingCrown`]).
 //! * Wind moves near slices more than far ones; see [`wind`](crate::wind).
 //!
 //! # What it does not do
-//! Crowns that intersect are not sorted slice by slice. Within a few metres slices show where no mesh takes over. Storage
+//! Crowns that intersect are sorted whole, or band by band, not slice by slice. Within a few metres slices show where no mesh takes over. Storage
 //! buffers in the vertex stage are required, so WebGL 2 is out.
 
 pub mod bake;
+mod bands;
 pub mod blend;
 mod close_up;
 mod component;
@@ -79,9 +81,13 @@ mod tests;
 mod upload;
 
 use bevy::asset::AssetEventSystems;
+use bevy::camera::visibility::VisibilitySystems;
+use bevy::core_pipeline::core_3d::Transparent3d;
 use bevy::pbr::MaterialPlugin;
 use bevy::prelude::*;
+use bevy::render::render_phase::sort_phase_system;
 use bevy::render::storage::ShaderBuffer;
+use bevy::render::{ExtractSchedule, Render, RenderApp, RenderSystems};
 use bevy::shader::load_shader_library;
 
 pub use bake::{
@@ -92,7 +98,9 @@ pub use bake::{
 pub(crate) use bake::{bake_towards, bake_unchecked};
 pub use blend::{DrawnSlice, SliceOrder};
 pub use close_up::close_up;
-pub use component::{Composition, CrownSettings, CrownTint, DiscrepancyAngle, SlicedCrown};
+pub use component::{
+    Composition, CrownSettings, CrownTint, DiscrepancyAngle, IntersectingCrown, SlicedCrown,
+};
 pub use compression::SlicingCompression;
 pub use document::{Picture, SlicingDocument, read_picture};
 pub use error::{SlicingError, SlicingFileError, SlicingFileErrorKind};
@@ -136,6 +144,7 @@ impl Plugin for SlicingPlugin {
             .register_type::<SlicedCrown>()
             .register_type::<CrownSettings>()
             .register_type::<CrownTint>()
+            .register_type::<IntersectingCrown>()
             .register_type::<SlicingCompression>()
             .init_resource::<SlicingCompression>()
             .init_resource::<library::CrownLibrary>()
@@ -160,7 +169,7 @@ impl Plugin for SlicingPlugin {
             .add_systems(
                 PostUpdate,
                 (
-                    near::part_by_part,
+                    (near::draw_near, bands::follow_crowns).chain(),
                     library::follow_sun,
                     library::follow_cameras,
                 )
@@ -168,7 +177,19 @@ impl Plugin for SlicingPlugin {
                     .after(VerdureSystems::Attach)
                     // Where crowns, cameras and suns are in this frame.
                     .after(TransformSystems::Propagate)
+                    .before(VisibilitySystems::CheckVisibility)
                     .before(AssetEventSystems),
             );
+        if let Some(render_app) = app.get_sub_app_mut(RenderApp) {
+            render_app
+                .init_resource::<bands::CrownsInBands>()
+                .add_systems(ExtractSchedule, bands::extract)
+                .add_systems(
+                    Render,
+                    bands::place_bands
+                        .in_set(RenderSystems::PhaseSort)
+                        .before(sort_phase_system::<Transparent3d>),
+                );
+        }
     }
 }

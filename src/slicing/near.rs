@@ -1,61 +1,138 @@
-//! Which crowns are so near to an eye that their discrepancy angle is taken part by part (`blend/parts.rs`).
+//! How crowns are drawn that are near to an eye: with a discrepancy angle taken part by part (`blend/parts.rs`), and in bands
+//! (`bands.rs`) if they may intersect others.
 //!
-//! It takes a pipeline of its own, so that crowns further away pay nothing for it; where one takes over from the other, both
-//! draw the same.
+//! It takes pipelines and meshes of their own, so that crowns further away pay nothing for it; where one takes over from the
+//! other, both draw the same.
 
-use bevy::camera::Projection;
+use bevy::math::Affine3A;
 use bevy::prelude::*;
 
-use super::blend::{PARTS, SliceOrder};
-use super::component::{CrownSettings, DiscrepancyAngle, SlicedCrown};
+use super::blend::{FOCAL, PARTS, SliceOrder, ranks};
+use super::component::{
+    Composition, CrownSettings, DiscrepancyAngle, IntersectingCrown, SlicedCrown,
+};
 use super::library::CrownLibrary;
 use super::material::SlicedCrownMaterial;
+use super::slicing::SlicingShape;
 
-/// Whether a crown is near to any eye.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Nearness(bool);
+/// How a crown is drawn.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(crate) struct Nearness {
+    /// Whether the discrepancy angle is taken part by part.
+    pub is_near: bool,
+    /// How many ranks of slices are drawn at most, if they are drawn in bands; else 0.
+    pub ranks: u32,
+}
+
+impl Nearness {
+    pub(crate) fn is_in_bands(self) -> bool {
+        self.ranks > 0
+    }
+}
 
 /// What tells how a crown is drawn, and what it is drawn with.
 type Crown<'a> = (
     &'a SlicedCrown,
     &'a CrownSettings,
     &'a GlobalTransform,
+    Has<IntersectingCrown>,
     &'a mut Nearness,
     &'a mut Mesh3d,
     &'a mut MeshMaterial3d<SlicedCrownMaterial>,
 );
 
+/// Where crowns are seen from.
+pub(crate) struct Eye {
+    at: Vec3,
+    is_orthographic: bool,
+    /// Pixels of the view for a metre: one metre away, or anywhere in an orthographic view.
+    pixels_per_metre: f32,
+}
+
+impl Eye {
+    /// One of a view so many pixels high.
+    pub(crate) fn new(at: Vec3, clip_from_view: &Mat4, height: u32) -> Self {
+        Self {
+            at,
+            is_orthographic: clip_from_view.w_axis.w == 1.0,
+            pixels_per_metre: 0.5 * height as f32 * clip_from_view.y_axis.y.abs(),
+        }
+    }
+
+    fn of_camera((camera, at): (&Camera, &GlobalTransform)) -> Self {
+        let height = camera.physical_viewport_size().map_or(0, |size| size.y);
+        Self::new(at.translation(), &camera.clip_from_view(), height)
+    }
+
+    /// How many ranks of slices a crown shows.
+    pub(crate) fn ranks(
+        &self,
+        shape: &SlicingShape,
+        world_from_local: &Affine3A,
+        order: SliceOrder,
+    ) -> u32 {
+        let centroid = world_from_local.transform_point3(shape.centroid);
+        let metre = world_from_local.matrix3.y_axis.length();
+        ranks(
+            shape,
+            self.apparent_distance(centroid, shape.radius * metre),
+            order,
+        )
+    }
+
+    /// How many radii away a crown would be as small as it is here, on the screen that levels of detail are made for.
+    fn apparent_distance(&self, centroid: Vec3, radius: f32) -> f32 {
+        let size = radius * self.pixels_per_metre;
+        if self.is_orthographic {
+            FOCAL / size
+        } else {
+            self.at.distance(centroid) * FOCAL / size
+        }
+    }
+}
+
 /// Gives crowns that have come near to an eye, or have left all, what they are drawn with there.
-pub(crate) fn part_by_part(
-    library: Res<CrownLibrary>,
-    cameras: Query<(&Camera, &Projection, &GlobalTransform), With<Camera3d>>,
+pub(crate) fn draw_near(
+    mut library: ResMut<CrownLibrary>,
+    mut meshes: ResMut<Assets<Mesh>>,
+    cameras: Query<(&Camera, &GlobalTransform), With<Camera3d>>,
     mut crowns: Query<Crown>,
 ) {
-    let eyes: Vec<Vec3> = cameras
-        .iter()
-        .filter(|(camera, projection, _)| {
-            camera.is_active && !matches!(projection, Projection::Orthographic(_))
-        })
-        .map(|(_, _, at)| at.translation())
-        .collect();
-    for (crown, settings, at, mut nearness, mut mesh, mut material) in &mut crowns {
-        let Some(shared) = library.shared.get(&crown.0.id()) else {
+    let active = cameras.iter().filter(|(camera, _)| camera.is_active);
+    let eyes: Vec<Eye> = active.map(Eye::of_camera).collect();
+    for (crown, settings, at, intersects, mut nearness, mut mesh, mut material) in &mut crowns {
+        let id = crown.0.id();
+        let Some(shared) = library.shared.get(&id) else {
             continue;
         };
-        let (centroid, radius) = shared.ball;
+        let shape = &shared.shape;
         let affine = at.affine();
-        let centroid = affine.transform_point3(centroid);
+        let centroid = affine.transform_point3(shape.centroid);
         let m = affine.matrix3;
         let longest = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.length());
-        let reach = PARTS[1] * radius * longest.into_iter().fold(0.0, f32::max);
-        let is_near = shared.has_parts
-            && settings.discrepancy == DiscrepancyAngle::PerPart
-            && settings.order == SliceOrder::Steady
-            && eyes.iter().any(|eye| eye.distance(centroid) < reach);
-        if nearness.0 != is_near
-            && let Some(look) = library.look(crown.0.id(), settings, is_near)
+        let radius = shape.radius * longest.into_iter().fold(0.0, f32::max);
+        let reach = PARTS[1] * radius;
+        let sees_parts = |eye: &Eye| !eye.is_orthographic && eye.at.distance(centroid) < reach;
+        // A single one is whole.
+        let ranks = if intersects && settings.composition == Composition::Blended {
+            let ranks = eyes
+                .iter()
+                .map(|eye| eye.ranks(shape, &affine, settings.order));
+            ranks.max().filter(|ranks| *ranks > 1).unwrap_or(0)
+        } else {
+            0
+        };
+        let now = Nearness {
+            is_near: shared.has_parts
+                && settings.discrepancy == DiscrepancyAngle::PerPart
+                && settings.order == SliceOrder::Steady
+                && eyes.iter().any(sees_parts),
+            ranks,
+        };
+        if *nearness != now
+            && let Some(look) = library.look(id, settings, now, &mut meshes)
         {
-            nearness.0 = is_near;
+            *nearness = now;
             (*mesh, *material) = look;
         }
     }

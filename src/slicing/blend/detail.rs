@@ -26,3 +26,15 @@ pub fn levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (usize,
     });
     (level, share)
 }
+
+/// How many slices of each orientation are drawn of a crown that is, apparently, so many radii away: those of both levels where
+/// two fade into one another.
+pub fn ranks(shape: &SlicingShape, distance: f32, order: SliceOrder) -> u32 {
+    let (level, share) = levels(shape, distance, order);
+    let count = |level: usize| shape.levels.get(level).copied().unwrap_or(0);
+    if share < 1.0 {
+        count(level) + count(level + 1)
+    } else {
+        count(level)
+    }
+}

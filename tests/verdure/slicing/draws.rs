@@ -34,6 +34,24 @@ struct Frame {
     changes: usize,
 }
 
+/// What is sorted, in its order, and how many draws that is.
+fn items_and_draws(studio: &mut Studio) -> (Vec<Entity>, usize) {
+    let render = studio.headless.app().sub_app(RenderApp).world();
+    let phases = render.resource::<ViewSortedRenderPhases<Transparent3d>>();
+    let items = phases.values().flat_map(|phase| phase.items.values());
+    // As Bevy walks through them: the first item of a batch stands for all of it.
+    let (mut draws, mut batched, mut seen) = (0, 0, Vec::new());
+    for item in items {
+        seen.push(item.main_entity().id());
+        if batched == 0 {
+            draws += 1;
+            batched = item.batch_range().len();
+        }
+        batched = batched.saturating_sub(1);
+    }
+    (seen, draws)
+}
+
 /// A grove on a spiral, of so many assets by turns.
 fn grove(crowns: u32, assets: usize) -> Frame {
     let mut studio = Studio::default();
@@ -48,19 +66,7 @@ fn grove(crowns: u32, assets: usize) -> Frame {
     }
     studio.headless.step();
     studio.photograph(&LOOK, Color::BLACK);
-    let render = studio.headless.app().sub_app(RenderApp).world();
-    let phases = render.resource::<ViewSortedRenderPhases<Transparent3d>>();
-    let items = phases.values().flat_map(|phase| phase.items.values());
-    // As Bevy walks through them: the first item of a batch stands for all of it.
-    let (mut draws, mut batched, mut seen) = (0, 0, Vec::new());
-    for item in items {
-        seen.push(item.main_entity().id());
-        if batched == 0 {
-            draws += 1;
-            batched = item.batch_range().len();
-        }
-        batched = batched.saturating_sub(1);
-    }
+    let (seen, draws) = items_and_draws(&mut studio);
     let world = studio.world();
     let (mut quads, mut order, mut is_any_near) = (0, Vec::new(), false);
     for crown in &seen {
@@ -94,4 +100,51 @@ fn crowns_of_one_asset_are_one_draw_and_of_two_at_first_one_for_each_turn_in_the
         assert_eq!(two.draws, two.changes + 1);
         assert!(two.draws > 1 && two.draws <= two.crowns);
     }
+}
+
+#[test]
+fn crowns_in_bands_are_one_draw_too_and_their_bands_are_sorted_among_one_another() {
+    let mut studio = Studio::default();
+    // One asset, or it would take a moment until all are drawn at once.
+    let slicing = studio
+        .world()
+        .resource_mut::<Assets<Slicing>>()
+        .add(CROWN.clone());
+    let crowns: Vec<_> = [-1.0, 1.0, 3.0]
+        .map(|x| {
+            let place = Transform::from_xyz(x, 0.0, 0.3 * x);
+            let crown = (
+                SlicedCrown(slicing.clone()),
+                UNLIT,
+                place,
+                IntersectingCrown,
+            );
+            studio.world().spawn(crown).id()
+        })
+        .into();
+    let look = Shot {
+        // Five slices of an orientation.
+        size: UVec2::new(640, 480),
+        ..LOOK
+    };
+    studio.photograph(&look, Color::BLACK);
+    let (seen, draws) = items_and_draws(&mut studio);
+    assert_eq!((seen.len(), draws), (15, 1));
+    let world = studio.world();
+    let crown_of = |entity: &Entity| {
+        world
+            .get::<ChildOf>(*entity)
+            .map_or(*entity, ChildOf::parent)
+    };
+    let order: Vec<_> = seen.iter().map(crown_of).collect();
+    for crown in &crowns {
+        assert_eq!(order.iter().filter(|other| *other == crown).count(), 5);
+        // Its own bands are in order: it draws the furthest, and has the others as children, far to near.
+        let own = seen.iter().filter(|entity| crown_of(entity) == *crown);
+        let children = world.get::<Children>(*crown).expect("it has some").iter();
+        assert!(own.copied().eq([*crown].into_iter().chain(children)));
+    }
+    // Three crowns, one after the other, would be two changes.
+    let changes = order.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    assert!(changes > 6, "{changes}");
 }

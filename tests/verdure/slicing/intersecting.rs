@@ -1,7 +1,8 @@
-//! Where slicing fails: crowns that intersect. Each is drawn whole, after what is further (§2.3).
+//! Where slicing fails: crowns that intersect. Each is drawn whole, after what is further (§2.3), or in bands.
 
 use bevy::prelude::*;
 use bevy_verdure::lab::{Lens, Shot, Studio, mean_flip};
+use bevy_verdure::prelude::*;
 
 use super::{CROWN, SIZE, UNLIT, plant, plant_mesh, shot};
 
@@ -37,22 +38,51 @@ fn flip(a: &[u8], b: &[u8]) -> f32 {
 }
 
 #[test]
-fn crowns_pop_as_they_change_their_order_only_where_they_intersect() {
-    let ratio = |apart| {
+fn crowns_pop_as_they_change_their_order_only_where_they_intersect_whole() {
+    let ratio = |apart, in_bands| {
         let mut studio = Studio::default();
         for place in places(apart) {
-            plant(&mut studio, UNLIT, place);
+            let crown = plant(&mut studio, UNLIT, place);
+            if in_bands {
+                studio.world().entity_mut(crown).insert(IntersectingCrown);
+            }
         }
         studio.headless.step();
         let [a, b, c] = [-3.0, -1.0, 1.0].map(|i| photograph(&mut studio, i * STEP));
         // Between b and c they swap, between a and b they only move.
         let (swap, motion) = (flip(&b, &c), flip(&a, &b));
-        println!("{apart} m apart: {swap:.5} as they swap, {motion:.5} else");
+        println!("{apart} m apart, in bands {in_bands}: {swap:.5} as they swap, {motion:.5} else");
         swap / motion
     };
-    assert!(ratio(7.2) < 1.5);
+    assert!(ratio(7.2, false) < 1.5);
     // What this is about, or there would be nothing to see.
-    assert!(ratio(2.0) > 2.0);
+    assert!(ratio(2.0, false) > 2.0);
+    assert!(ratio(2.0, true) < 1.5);
+}
+
+#[test]
+fn crowns_in_bands_that_intersect_change_little_on_their_whole_way() {
+    // The greatest change between neighbours over the usual one, for eyes that pass one crown before the other.
+    let pop = |in_bands: bool| {
+        let mut studio = Studio::default();
+        for place in places(2.0) {
+            let crown = plant(&mut studio, UNLIT, place);
+            if in_bands {
+                studio.world().entity_mut(crown).insert(IntersectingCrown);
+            }
+        }
+        studio.headless.step();
+        let eyes = (-100..100).map(|i| 8.0 * STEP * (i as f32 + 0.5));
+        let pictures: Vec<_> = eyes.map(|angle| photograph(&mut studio, angle)).collect();
+        let pairs = pictures.windows(2);
+        let mut changes: Vec<_> = pairs.map(|pair| flip(&pair[0], &pair[1])).collect();
+        changes.sort_by(f32::total_cmp);
+        changes[changes.len() - 1] / changes[changes.len() / 2]
+    };
+    let (whole, in_bands) = (pop(false), pop(true));
+    println!("greatest over usual change: whole {whole:.3}, in bands {in_bands:.3}");
+    // Of what is more than usual bands leave less than half.
+    assert!(in_bands - 1.0 < 0.5 * (whole - 1.0), "{whole} {in_bands}");
 }
 
 #[test]

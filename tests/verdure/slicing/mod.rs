@@ -1,6 +1,7 @@
 //! Crowns as they are drawn.
 
 mod agreement;
+mod bands;
 mod brightness;
 mod close_up;
 mod compression;
