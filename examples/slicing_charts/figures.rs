@@ -1,4 +1,4 @@
-//! The paper's Figures 3, 5 and 6 as ours.
+//! The paper's Figures 3, 5 and 6 as ours, and crowns that intersect.
 
 use std::path::Path;
 
@@ -7,7 +7,8 @@ use bevy_verdure::lab::{Lens, Pixels, Shot, box_downsample};
 use bevy_verdure::prelude::*;
 use image::{ExtendedColorType, ImageEncoder, codecs::png};
 
-use super::accuracy::SKY;
+use super::accuracy::{SKY, planted, uproot};
+use super::intersecting::pair;
 use super::lab::{Drawn, Lab};
 
 /// Pixels along each side of a picture, of which Figures 5 and 6 have two.
@@ -31,13 +32,24 @@ pub fn draw(lab: &mut Lab, dir: &Path) -> Result<(), String> {
     // In line with an orientation, and half-way to the next.
     let near = [0.0, 30.0].map(|azimuth| view(lab, azimuth, 9.0, 0.74));
     let framed = view(lab, 30.0, 22.0, 0.42);
+    // Two trees before and after they change their order.
+    let pair = pair(lab, 0.5);
+    let beside = [89.0, 91.0].map(|azimuth| view(lab, azimuth, 18.0, 0.7));
+    let one = [Transform::IDENTITY];
     let drawings = [
-        ("slicing_3", sliced(true), &[framed][..]),
-        ("slicing_5", sliced(false), &near[..]),
-        ("slicing_6", Drawn::Mesh, &near[..]),
+        ("slicing_3", sliced(true), &one[..], &[framed][..]),
+        ("slicing_5", sliced(false), &one, &near),
+        ("slicing_6", Drawn::Mesh, &one, &near),
+        ("slicing_whole", sliced(false), &pair, &beside),
+        (
+            "slicing_bands",
+            Drawn::InBands(slicing.clone(), default()),
+            &pair,
+            &beside,
+        ),
     ];
-    for (name, drawn, shots) in drawings {
-        let pictures: Vec<_> = photographs(lab, &drawn, shots);
+    for (name, drawn, places, shots) in drawings {
+        let pictures: Vec<_> = photographs(lab, &drawn, places, shots);
         let file = dir.join(name).with_extension("png");
         save(&file, &pictures)?;
         println!("{}", file.display());
@@ -57,15 +69,25 @@ fn view(lab: &Lab, azimuth: f32, distance: f32, fov: f32) -> Shot {
     }
 }
 
-/// Rows of pictures of a tree. Meshes have no mip levels: They are drawn larger and averaged down.
-fn photographs(lab: &mut Lab, drawn: &Drawn, shots: &[Shot]) -> Vec<Vec<u8>> {
+/// The second of two trees is another one's colour.
+const REDDISH: Color = Color::srgb(1.0, 0.7, 0.45);
+
+/// Rows of pictures of trees. Meshes have no mip levels: They are drawn larger and averaged down.
+fn photographs(lab: &mut Lab, drawn: &Drawn, places: &[Transform], shots: &[Shot]) -> Vec<Vec<u8>> {
     let is_mesh = matches!(drawn, Drawn::Mesh);
     let camera = lab.studio.camera();
     let msaa = if is_mesh { Msaa::Off } else { Msaa::Sample4 };
     lab.studio.world().entity_mut(camera).insert(msaa);
-    let tree = lab.plant(drawn, Transform::IDENTITY);
-    for _ in 0..3 {
-        lab.studio.headless.step();
+    let trees = planted(lab, drawn, places);
+    for tree in trees.iter().skip(1) {
+        let world = lab.studio.world();
+        let parts = world.get::<Children>(*tree);
+        let parts: Vec<_> = parts.into_iter().flatten().copied().collect();
+        for part in parts {
+            if world.get::<SlicedCrown>(part).is_some() {
+                world.entity_mut(part).insert(CrownTint(REDDISH));
+            }
+        }
     }
     let pictures = shots.iter().map(|shot| {
         if !is_mesh {
@@ -79,8 +101,7 @@ fn photographs(lab: &mut Lab, drawn: &Drawn, shots: &[Shot]) -> Vec<Vec<u8>> {
         box_downsample(shot.size, SAMPLES, &fine.rgb_bytes())
     });
     let pictures = pictures.collect();
-    lab.studio.world().despawn(tree);
-    lab.studio.headless.step();
+    uproot(lab, &trees);
     pictures
 }
 

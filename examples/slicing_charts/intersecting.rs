@@ -23,7 +23,7 @@ const STEP: f32 = 0.02;
 const WAY: f32 = 12.0;
 
 /// Two trees whose crowns overlap by a share of their width.
-fn pair(lab: &Lab, overlap: f32) -> [Transform; 2] {
+pub fn pair(lab: &Lab, overlap: f32) -> [Transform; 2] {
     let (low, high) = lab.crown.bounds().unwrap_or_default();
     let centroid = lab.centroid();
     let apart = 0.5 * (1.0 - overlap) * (high.x - low.x);
