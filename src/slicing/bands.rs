@@ -1,38 +1,36 @@
 //! Crowns that intersect, drawn in bands: slices of a crown that follow one another are an item of the transparent phase, and
-//! each is sorted by where these slices are, among the bands of other crowns and all else that is transparent.
+//! each is sorted by where these slices are (`sorting.rs`), among the bands of other crowns and all else that is transparent.
 //!
-//! Drawn whole, one crown is in front of the other, and where they change their order all that both cover changes. In bands, two
-//! that change theirs cover little between them. A crown alone is drawn as it is whole, to the bit: its bands stay in order.
+//! Drawn whole, one crown is in front of the other, and where they change their order all that both cover changes. In bands,
+//! two that change theirs cover little between them. A crown alone is drawn as it is whole, to the bit: its bands stay in order.
 //!
 //! The crown's own entity draws the furthest band, and children of it the others.
 
-use core::iter::zip;
 use std::sync::Arc;
 
 use bevy::camera::primitives::Aabb;
 use bevy::camera::visibility::{NoAutoAabb, NoFrustumCulling, RenderLayers, VisibilityRange};
-use bevy::core_pipeline::core_3d::{Transparent3d, TransparentSortingInfo3d};
+use bevy::ecs::query::QueryData;
 use bevy::light::{NotShadowCaster, NotShadowReceiver, TransmittedShadowReceiver};
-use bevy::math::{Affine3A, Vec3A};
 use bevy::mesh::MeshTag;
 use bevy::prelude::*;
-use bevy::render::Extract;
-use bevy::render::render_phase::ViewSortedRenderPhases;
-use bevy::render::sync_world::MainEntity;
-use bevy::render::view::ExtractedView;
 
-use super::blend::{PART_SLOTS, SLOTS, SliceOrder};
+use super::blend::SliceOrder;
 use super::component::{CrownSettings, SlicedCrown};
 use super::library::CrownLibrary;
 use super::material::SlicedCrownMaterial;
-use super::mesh::{band_ranks, bands as bands_of};
-use super::near::{Eye, Nearness};
+use super::near::Nearness;
 use super::slicing::SlicingShape;
 
-/// The bands of a crown but the furthest, which it draws itself.
-#[derive(Component, Default)]
+/// The bands of a crown. On the crown, as long as it is drawn in them.
+#[derive(Component)]
 pub(crate) struct CrownBands {
-    children: Vec<Entity>,
+    /// What draws all bands but the furthest, far to near.
+    pub children: Vec<Entity>,
+    pub shape: Arc<SlicingShape>,
+    pub order: SliceOrder,
+    /// How many ranks of slices there are at most, in any view.
+    pub ranks: u32,
     look: BandLook,
 }
 
@@ -47,263 +45,203 @@ impl CrownBands {
 }
 
 /// Marks what draws a band of its parent.
-#[derive(Component)]
-pub(crate) struct CrownBand;
+#[derive(Component, Clone)]
+pub(crate) struct BandOfParent;
 
-/// What the bands of a crown are drawn with.
-#[derive(Clone, Default, PartialEq)]
+/// What the bands of a crown have of it.
+#[derive(Default)]
 struct BandLook {
+    /// Of bands that children draw.
     meshes: Vec<Handle<Mesh>>,
     material: MeshMaterial3d<SlicedCrownMaterial>,
     tag: MeshTag,
     bounds: Aabb,
     layers: Option<RenderLayers>,
     range: Option<VisibilityRange>,
+    marks: Marks,
+}
+
+/// What marks a crown, and all of its bands.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+struct Marks {
+    casts_no_shadows: bool,
     receives_no_shadows: bool,
+    receives_transmitted_shadows: bool,
     is_never_culled: bool,
-    /// How many of them have slices that cast shadows.
-    casters: usize,
+}
+
+/// A crown, and what its bands have of it.
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub(crate) struct Followed {
+    entity: Entity,
+    crown: &'static SlicedCrown,
+    settings: &'static CrownSettings,
+    nearness: &'static Nearness,
+    material: &'static MeshMaterial3d<SlicedCrownMaterial>,
+    tag: &'static MeshTag,
+    bounds: &'static Aabb,
+    layers: Option<&'static RenderLayers>,
+    range: Option<&'static VisibilityRange>,
+    marks: (
+        Has<NotShadowCaster>,
+        Has<NotShadowReceiver>,
+        Has<TransmittedShadowReceiver>,
+        Has<NoFrustumCulling>,
+    ),
+    place: &'static GlobalTransform,
+    visibility: &'static InheritedVisibility,
+    bands: Option<&'static mut CrownBands>,
+}
+
+impl FollowedItem<'_, '_> {
+    fn marks(&self) -> Marks {
+        let (casts_no_shadows, receives_no_shadows, receives_transmitted_shadows, is_never_culled) =
+            self.marks;
+        Marks {
+            casts_no_shadows,
+            receives_no_shadows,
+            receives_transmitted_shadows,
+            is_never_culled,
+        }
+    }
+
+    /// Whether bands of these meshes look so.
+    fn has(&self, meshes: &[Handle<Mesh>], look: &BandLook) -> bool {
+        look.meshes == meshes
+            && look.material == *self.material
+            && look.tag == *self.tag
+            && look.bounds == *self.bounds
+            && look.layers.as_ref() == self.layers
+            && look.range.as_ref() == self.range
+            && look.marks == self.marks()
+    }
+
+    /// How bands of these meshes look.
+    fn look(&self, meshes: &[Handle<Mesh>]) -> BandLook {
+        BandLook {
+            meshes: meshes.to_vec(),
+            material: self.material.clone(),
+            tag: self.tag.clone(),
+            bounds: *self.bounds,
+            layers: self.layers.cloned(),
+            range: self.range.cloned(),
+            marks: self.marks(),
+        }
+    }
 }
 
 impl BandLook {
-    /// Gives a child what the band at an `index` among those of children is drawn with.
-    fn give(&self, index: usize, child: &mut EntityCommands) {
+    /// Lets a child draw one of these bands.
+    fn give(&self, mesh: &Handle<Mesh>, child: &mut EntityCommands) {
         child.try_insert((
-            Mesh3d(self.meshes[index].clone()),
+            Mesh3d(mesh.clone()),
             self.material.clone(),
             self.tag.clone(),
             self.bounds,
         ));
-        follow(child, self.layers.clone());
-        follow(child, self.range.clone());
-        follow(child, self.receives_no_shadows.then_some(NotShadowReceiver));
-        follow(child, self.is_never_culled.then_some(NoFrustumCulling));
-        follow(child, (index >= self.casters).then_some(NotShadowCaster));
+        let marks = self.marks;
+        give(child, self.layers.clone());
+        give(child, self.range.clone());
+        give(child, marks.casts_no_shadows.then_some(NotShadowCaster));
+        give(
+            child,
+            marks.receives_no_shadows.then_some(NotShadowReceiver),
+        );
+        let transmitted = marks.receives_transmitted_shadows;
+        give(child, transmitted.then_some(TransmittedShadowReceiver));
+        give(child, marks.is_never_culled.then_some(NoFrustumCulling));
     }
 }
 
 /// Gives an entity a component, or takes it.
-fn follow<C: Component>(entity: &mut EntityCommands, component: Option<C>) {
+fn give<C: Component>(entity: &mut EntityCommands, component: Option<C>) {
     match component {
         Some(component) => entity.try_insert(component),
         None => entity.try_remove::<C>(),
     };
 }
 
-/// What bands follow of their crown.
-type Followed<'w> = (
-    Entity,
-    (&'w SlicedCrown, &'w CrownSettings, &'w Nearness),
-    (
-        &'w MeshMaterial3d<SlicedCrownMaterial>,
-        &'w MeshTag,
-        &'w Aabb,
-    ),
-    (Option<&'w RenderLayers>, Option<&'w VisibilityRange>),
-    (
-        Has<NotShadowReceiver>,
-        Has<NotShadowCaster>,
-        Has<NoFrustumCulling>,
-    ),
-    (&'w GlobalTransform, &'w InheritedVisibility),
-    Option<&'w mut CrownBands>,
-);
-
 /// Spawns the bands of crowns that are drawn in them, lets them follow their crowns, and despawns those of others.
 pub(crate) fn follow_crowns(
     mut commands: Commands,
     library: Res<CrownLibrary>,
     crowns: Query<Followed>,
-    bands: Query<(), With<CrownBand>>,
+    parents: Query<&ChildOf, With<BandOfParent>>,
 ) {
-    for (entity, crown, drawn, culled, has, place, own) in crowns {
-        let (crown, settings, nearness) = crown;
-        if own.is_none() && !nearness.is_in_bands() {
+    for mut crown in crowns {
+        if !crown.nearness.is_in_bands() {
+            if let Some(bands) = &crown.bands {
+                bands.despawn(&mut commands);
+                commands.entity(crown.entity).try_remove::<CrownBands>();
+            }
             continue;
         }
-        let Some(shared) = library.shared.get(&crown.0.id()) else {
+        // While there is no slicing all stays as it is.
+        let Some(shared) = library.shared.get(&crown.crown.0.id()) else {
             continue;
         };
-        let (receives_no_shadows, casts_none, is_never_culled) = has;
-        let (material, tag, bounds) = drawn;
-        let meshes = library
-            .bands(crown.0.id(), *nearness)
-            .get(1..)
-            .unwrap_or(&[]);
-        let look = BandLook {
-            meshes: meshes.to_vec(),
-            material: material.clone(),
-            tag: tag.clone(),
-            bounds: *bounds,
-            layers: culled.0.cloned(),
-            range: culled.1.cloned(),
-            receives_no_shadows,
-            is_never_culled,
-            casters: if casts_none {
-                0
-            } else {
-                casters(&shared.shape, settings.order, *nearness)
-            },
+        let meshes = shared.known_bands(*crown.nearness);
+        let Some((_, meshes)) = meshes.split_first() else {
+            continue;
         };
-        let mut fresh = CrownBands::default();
-        let mut own = own;
-        let known = own.as_deref_mut().unwrap_or(&mut fresh);
-        let are_there = known.children.iter().all(|child| bands.contains(*child));
-        if known.look == look && are_there {
+        let entity = crown.entity;
+        let is_there = |child: &Entity| {
+            let parent = parents.get(*child).map(ChildOf::parent);
+            parent.is_ok_and(|parent| parent == entity)
+        };
+        let settled = crown.bands.as_ref().is_some_and(|bands| {
+            crown.has(meshes, &bands.look)
+                && Arc::ptr_eq(&bands.shape, &shared.shape)
+                && bands.order == crown.settings.order
+                && bands.children.iter().all(is_there)
+        });
+        if settled {
             continue;
         }
-        known.children.retain(|child| bands.contains(*child));
-        for child in known
-            .children
-            .drain(meshes.len().min(known.children.len())..)
-        {
+        let before = crown.bands.as_deref_mut();
+        let mut children =
+            before.map_or_else(Vec::new, |bands| core::mem::take(&mut bands.children));
+        children.retain(is_there);
+        for child in children.drain(meshes.len().min(children.len())..) {
             commands.entity(child).try_despawn();
         }
-        while known.children.len() < meshes.len() {
-            let (transform, visibility) = place;
+        while children.len() < meshes.len() {
             let child = commands.spawn((
-                CrownBand,
+                BandOfParent,
                 ChildOf(entity),
                 NoAutoAabb,
-                TransmittedShadowReceiver,
                 // As they will be once they have come down from the crown.
-                *transform,
-                *visibility,
+                *crown.place,
+                *crown.visibility,
             ));
-            known.children.push(child.id());
+            children.push(child.id());
         }
-        for (index, child) in known.children.iter().enumerate() {
-            look.give(index, &mut commands.entity(*child));
+        let look = crown.look(meshes);
+        for (child, mesh) in children.iter().zip(meshes) {
+            look.give(mesh, &mut commands.entity(*child));
         }
-        known.look = look;
-        if !nearness.is_in_bands() {
-            commands.entity(entity).try_remove::<CrownBands>();
-        } else if own.is_none() {
-            commands.entity(entity).try_insert(fresh);
-        }
-    }
-}
-
-/// How many bands but the furthest have slices that cast shadows.
-fn casters(shape: &SlicingShape, order: SliceOrder, nearness: Nearness) -> usize {
-    let level = match order {
-        SliceOrder::Steady => shape.levels.len() - 1,
-        SliceOrder::Paper => 0,
-    };
-    let slots = if nearness.is_near { PART_SLOTS } else { SLOTS };
-    let others = bands_of(shape, slots, nearness.ranks).skip(1);
-    others
-        .filter(|band| band.start < shape.levels[level])
-        .count()
-}
-
-/// A crown that is drawn in bands in this frame.
-struct CrownInBands {
-    world_from_local: Affine3A,
-    shape: Arc<SlicingShape>,
-    order: SliceOrder,
-    /// Its bands, far to near, and how many ranks each has.
-    bands: Vec<Entity>,
-    band_ranks: u32,
-    /// From −½ to ½, so that of two crowns alike not all bands change their order at once.
-    chance: f32,
-}
-
-/// The crowns that are drawn in bands in this frame.
-#[derive(Resource, Default)]
-pub(crate) struct CrownsInBands(Vec<CrownInBands>);
-
-/// What is extracted of a crown in bands.
-type ExtractedCrown<'w> = (
-    Entity,
-    (&'w SlicedCrown, &'w CrownSettings, &'w Nearness),
-    &'w CrownBands,
-    &'w GlobalTransform,
-    &'w MeshTag,
-);
-
-/// Takes crowns in bands over into the render world.
-pub(crate) fn extract(
-    mut crowns: ResMut<CrownsInBands>,
-    library: Extract<Option<Res<CrownLibrary>>>,
-    found: Extract<Query<ExtractedCrown>>,
-) {
-    crowns.0.clear();
-    let Some(library) = &*library else {
-        return;
-    };
-    for (entity, (crown, settings, nearness), bands, place, tag) in &found {
-        let Some(shared) = library.shared.get(&crown.0.id()) else {
-            continue;
-        };
-        let [.., seed] = tag.0.to_le_bytes();
-        crowns.0.push(CrownInBands {
-            world_from_local: place.affine(),
+        commands.entity(entity).try_insert(CrownBands {
+            children,
             shape: shared.shape.clone(),
-            order: settings.order,
-            band_ranks: band_ranks(nearness.ranks),
-            bands: [entity]
-                .into_iter()
-                .chain(bands.children.iter().copied())
-                .collect(),
-            chance: f32::from(seed) / 255.0 - 0.5,
+            order: crown.settings.order,
+            ranks: crown.nearness.ranks,
+            look,
         });
     }
 }
 
-/// Tells the items of bands where they are to be sorted to.
-pub(crate) fn place_bands(
-    crowns: Res<CrownsInBands>,
-    views: Query<&ExtractedView>,
-    mut phases: ResMut<ViewSortedRenderPhases<Transparent3d>>,
+/// Despawns what drew a band of a crown that is none any more, or that knows nothing of it: clones, and what was taken from its
+/// crown.
+pub(crate) fn sweep(
+    mut commands: Commands,
+    children: Query<(Entity, Option<&ChildOf>), With<BandOfParent>>,
+    crowns: Query<&CrownBands, With<SlicedCrown>>,
 ) {
-    for view in &views {
-        let Some(phase) = phases.get_mut(&view.retained_view_entity) else {
-            continue;
-        };
-        for crown in &crowns.0 {
-            let centroid = crown
-                .world_from_local
-                .transform_point3(crown.shape.centroid);
-            for (band, depth) in zip(&crown.bands, crown.depths(view)) {
-                // As Bevy has meshes.
-                let key = (Entity::PLACEHOLDER, MainEntity::from(*band));
-                if let Some(item) = phase.items.get_mut(&key) {
-                    item.sorting_info = TransparentSortingInfo3d::Sorted {
-                        mesh_center: centroid,
-                        depth_bias: depth,
-                    };
-                }
-            }
+    for (child, parent) in &children {
+        let bands = parent.and_then(|parent| crowns.get(parent.parent()).ok());
+        if bands.is_none_or(|bands| !bands.children.contains(&child)) {
+            commands.entity(child).try_despawn();
         }
-    }
-}
-
-impl CrownInBands {
-    /// How far before its centroid each band is for a view, in metres: ranks are as far apart as slices of the orientation that it
-    /// sees best.
-    fn depths(&self, view: &ExtractedView) -> impl Iterator<Item = f32> {
-        let place = view.world_from_view.affine();
-        let eye = Eye::new(
-            place.translation.into(),
-            &view.clip_from_view,
-            view.viewport.w,
-        );
-        let ranks = eye.ranks(&self.shape, &self.world_from_local, self.order);
-        let matrix = self.world_from_local.matrix3;
-        // Of the vectors through the slicing boxes.
-        let depths = self.shape.orientations.iter().map(|o| {
-            let through = matrix * Vec3A::from(o.direction * (o.high.z - o.low.z));
-            through.dot(place.matrix3.z_axis).abs()
-        });
-        let spacing = depths.fold(0.0, f32::max) / ranks as f32;
-        let (each, chance) = (self.band_ranks, self.chance);
-        (0..self.bands.len() as u32).map(move |band| {
-            let first = band * each;
-            // Of what is not drawn in this view it does not matter where it is.
-            let last = (first + each).min(ranks).max(first + 1);
-            let middle = 0.5 * (first + last) as f32;
-            (middle - 0.5 * ranks as f32 + chance) * spacing
-        })
     }
 }

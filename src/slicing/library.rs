@@ -56,6 +56,11 @@ pub(crate) struct Shared {
 }
 
 impl Shared {
+    /// The meshes of bands that have been drawn, far to near.
+    pub(crate) fn known_bands(&self, nearness: Nearness) -> &[Handle<Mesh>] {
+        self.bands.get(&nearness).map_or(&[], |bands| bands)
+    }
+
     /// The meshes of bands, far to near.
     fn bands(&mut self, nearness: Nearness, meshes: &mut Assets<Mesh>) -> &[Handle<Mesh>] {
         let shape = &self.shape;
@@ -244,15 +249,6 @@ impl CrownLibrary {
             &shared.meshes[i]
         };
         Some((Mesh3d(mesh.clone()), MeshMaterial3d(materials[i].clone())))
-    }
-
-    /// The meshes of bands that have been drawn, far to near.
-    pub(crate) fn bands(&self, id: AssetId<Slicing>, nearness: Nearness) -> &[Handle<Mesh>] {
-        let bands = self
-            .shared
-            .get(&id)
-            .and_then(|shared| shared.bands.get(&nearness));
-        bands.map_or(&[], |bands| bands)
     }
 
     /// Slicings, and what they are drawn from.

@@ -59,6 +59,7 @@ mod component;
 mod compression;
 mod document;
 mod error;
+mod eye;
 mod gather;
 mod library;
 mod limits;
@@ -76,11 +77,13 @@ mod set;
     reason = "the file of the type that the folder is named after"
 )]
 mod slicing;
+mod sorting;
 #[cfg(test)]
 mod tests;
 mod upload;
 
 use bevy::asset::AssetEventSystems;
+use bevy::camera::CameraUpdateSystems;
 use bevy::camera::visibility::VisibilitySystems;
 use bevy::core_pipeline::core_3d::Transparent3d;
 use bevy::pbr::MaterialPlugin;
@@ -169,7 +172,7 @@ impl Plugin for SlicingPlugin {
             .add_systems(
                 PostUpdate,
                 (
-                    (near::draw_near, bands::follow_crowns).chain(),
+                    (near::draw_near, bands::sweep, bands::follow_crowns).chain(),
                     library::follow_sun,
                     library::follow_cameras,
                 )
@@ -177,16 +180,18 @@ impl Plugin for SlicingPlugin {
                     .after(VerdureSystems::Attach)
                     // Where crowns, cameras and suns are in this frame.
                     .after(TransformSystems::Propagate)
+                    .after(CameraUpdateSystems)
+                    .after(VisibilitySystems::VisibilityPropagate)
                     .before(VisibilitySystems::CheckVisibility)
                     .before(AssetEventSystems),
             );
         if let Some(render_app) = app.get_sub_app_mut(RenderApp) {
             render_app
-                .init_resource::<bands::CrownsInBands>()
-                .add_systems(ExtractSchedule, bands::extract)
+                .init_resource::<sorting::SortedCrowns>()
+                .add_systems(ExtractSchedule, sorting::extract)
                 .add_systems(
                     Render,
-                    bands::place_bands
+                    sorting::place_items
                         .in_set(RenderSystems::PhaseSort)
                         .before(sort_phase_system::<Transparent3d>),
                 );

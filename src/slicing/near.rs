@@ -4,16 +4,15 @@
 //! It takes pipelines and meshes of their own, so that crowns further away pay nothing for it; where one takes over from the
 //! other, both draw the same.
 
-use bevy::math::Affine3A;
 use bevy::prelude::*;
 
-use super::blend::{FOCAL, PARTS, SliceOrder, ranks};
+use super::blend::{PARTS, SliceOrder, ranks};
 use super::component::{
     Composition, CrownSettings, DiscrepancyAngle, IntersectingCrown, SlicedCrown,
 };
+use super::eye::Eye;
 use super::library::CrownLibrary;
 use super::material::SlicedCrownMaterial;
-use super::slicing::SlicingShape;
 
 /// How a crown is drawn.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -41,56 +40,6 @@ type Crown<'a> = (
     &'a mut MeshMaterial3d<SlicedCrownMaterial>,
 );
 
-/// Where crowns are seen from.
-pub(crate) struct Eye {
-    at: Vec3,
-    is_orthographic: bool,
-    /// Pixels of the view for a metre: one metre away, or anywhere in an orthographic view.
-    pixels_per_metre: f32,
-}
-
-impl Eye {
-    /// One of a view so many pixels high.
-    pub(crate) fn new(at: Vec3, clip_from_view: &Mat4, height: u32) -> Self {
-        Self {
-            at,
-            is_orthographic: clip_from_view.w_axis.w == 1.0,
-            pixels_per_metre: 0.5 * height as f32 * clip_from_view.y_axis.y.abs(),
-        }
-    }
-
-    fn of_camera((camera, at): (&Camera, &GlobalTransform)) -> Self {
-        let height = camera.physical_viewport_size().map_or(0, |size| size.y);
-        Self::new(at.translation(), &camera.clip_from_view(), height)
-    }
-
-    /// How many ranks of slices a crown shows.
-    pub(crate) fn ranks(
-        &self,
-        shape: &SlicingShape,
-        world_from_local: &Affine3A,
-        order: SliceOrder,
-    ) -> u32 {
-        let centroid = world_from_local.transform_point3(shape.centroid);
-        let metre = world_from_local.matrix3.y_axis.length();
-        ranks(
-            shape,
-            self.apparent_distance(centroid, shape.radius * metre),
-            order,
-        )
-    }
-
-    /// How many radii away a crown would be as small as it is here, on the screen that levels of detail are made for.
-    fn apparent_distance(&self, centroid: Vec3, radius: f32) -> f32 {
-        let size = radius * self.pixels_per_metre;
-        if self.is_orthographic {
-            FOCAL / size
-        } else {
-            self.at.distance(centroid) * FOCAL / size
-        }
-    }
-}
-
 /// Gives crowns that have come near to an eye, or have left all, what they are drawn with there.
 pub(crate) fn draw_near(
     mut library: ResMut<CrownLibrary>,
@@ -112,12 +61,14 @@ pub(crate) fn draw_near(
         let longest = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.length());
         let radius = shape.radius * longest.into_iter().fold(0.0, f32::max);
         let reach = PARTS[1] * radius;
-        let sees_parts = |eye: &Eye| !eye.is_orthographic && eye.at.distance(centroid) < reach;
+        let sees_parts = |eye: &Eye| !eye.is_orthographic && eye.at().distance(centroid) < reach;
         // A single one is whole.
         let ranks = if intersects && settings.composition == Composition::Blended {
-            let ranks = eyes
-                .iter()
-                .map(|eye| eye.ranks(shape, &affine, settings.order));
+            let shown = |eye: &Eye| {
+                let distance = eye.sees(shape, &affine).distance;
+                ranks(shape, distance, settings.order)
+            };
+            let ranks = eyes.iter().map(shown);
             ranks.max().filter(|ranks| *ranks > 1).unwrap_or(0)
         } else {
             0

@@ -27,14 +27,38 @@ pub fn levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (usize,
     (level, share)
 }
 
-/// How many slices of each orientation are drawn of a crown that is, apparently, so many radii away: those of both levels where
-/// two fade into one another.
+/// How many slices of each orientation, ranks, are drawn of a crown that is, apparently, so many radii away: those of both levels
+/// where two fade into one another.
 pub fn ranks(shape: &SlicingShape, distance: f32, order: SliceOrder) -> u32 {
-    let (level, share) = levels(shape, distance, order);
-    let count = |level: usize| shape.levels.get(level).copied().unwrap_or(0);
-    if share < 1.0 {
-        count(level) + count(level + 1)
+    let [coarse, fine] = ranks_of_levels(shape, distance, order).1;
+    coarse + fine
+}
+
+/// Where the first so many ranks end in a crown that is, apparently, so many radii away: 0 at its far end, 1 at the near one. Where
+/// two levels fade into one another, they come one after the other, each with its share of the way, so that none jumps as it
+/// comes or goes.
+pub fn ranks_end(shape: &SlicingShape, distance: f32, order: SliceOrder, ranks: u32) -> f32 {
+    let (share, [coarse, fine]) = ranks_of_levels(shape, distance, order);
+    // Not so little that ranks come to be in one place.
+    let before = if coarse > 0 {
+        (1.0 - share).clamp(0.01, 0.99)
     } else {
-        count(level)
+        0.0
+    };
+    if ranks < coarse {
+        before * ranks as f32 / coarse as f32
+    } else {
+        before + (1.0 - before) * (ranks - coarse) as f32 / fine as f32
     }
+}
+
+/// The share of the finer level, and the ranks of the coarser and of the finer one, in the order in which they are drawn.
+fn ranks_of_levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (f32, [u32; 2]) {
+    let (level, share) = levels(shape, distance, order);
+    let coarse = if share < 1.0 {
+        shape.levels[level + 1]
+    } else {
+        0
+    };
+    (share, [coarse, shape.levels[level]])
 }

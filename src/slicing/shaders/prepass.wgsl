@@ -25,7 +25,7 @@ fn fragment(in: Varying) -> @builtin(frag_depth) f32 {
     visibility_range_dither(in.position, in.dither);
 #endif
     let alpha = slice_color(in).a;
-    // Shadows are not gathered: their lots stay.
+    // A sun's shadows are not gathered: their lots stay.
     let lot = lot_of(in.uv, in.grid, in.lot, 0u);
     if lot >= alpha {
         discard;

@@ -126,7 +126,7 @@ impl Geometry {
         if let Some((_, limit)) = self.limits.iter().find(|(of, _)| *of == most) {
             return *limit;
         }
-        let limit = limit(&self.facets, most);
+        let limit = limit(&self.facets, most, MAX_SLICES);
         self.limits.push((most, limit));
         limit
     }
@@ -169,7 +169,7 @@ fn records(found: &SurfaceFacets) -> Vec<FacetRecord> {
 
 /// The most slices a texel, fewer than `most` if facets would show too many in all. None, and a message, if one slice a
 /// texel is too many already.
-fn limit(facets: &[Facet], most: UVec3) -> Option<UVec3> {
+fn limit(facets: &[Facet], most: UVec3, most_slices: usize) -> Option<UVec3> {
     let mut fewer = most;
     for axis in SliceAxis::ALL {
         let most = &mut fewer[axis.index()];
@@ -177,13 +177,13 @@ fn limit(facets: &[Facet], most: UVec3) -> Option<UVec3> {
             let counts = facets.iter().map(|facet| most_on_facet(facet, axis, *most));
             let slices = counts.fold(0usize, usize::saturating_add);
             // One slice a facet is what any mesh takes.
-            if slices <= MAX_SLICES.max(facets.len()) {
+            if slices <= most_slices.max(facets.len()) {
                 break;
             }
             if *most == 1 {
                 error!(
                     "a surface of {} facets carries no texels: with one slice each across an axis there would be {slices}, \
-                     more than {MAX_SLICES}. Its texture coordinates go over too many texels: scale them down, or \
+                     more than {most_slices}. Its texture coordinates go over too many texels: scale them down, or \
                      subdivide the mesh into several",
                     facets.len()
                 );
@@ -194,7 +194,7 @@ fn limit(facets: &[Facet], most: UVec3) -> Option<UVec3> {
     }
     if fewer != most {
         warn!(
-            "a surface of {} facets would need more than {MAX_SLICES} slices across an axis: a texel gets {fewer} instead \
+            "a surface of {} facets would need more than {most_slices} slices across an axis: a texel gets {fewer} instead \
              of {most}; lower TexelSettings::most_slices, or let fewer texels lie on a facet",
             facets.len()
         );
@@ -278,6 +278,7 @@ mod tests {
             uvs: [Vec2::ZERO, Vec2::X * across, Vec2::Y],
         };
         let most = UVec3::splat(256);
+        let limit = |facets: &[Facet], most| limit(facets, most, MAX_SLICES);
         assert_eq!(limit(&[facet(1.0)], most), Some(most));
         let fewer = limit(&[facet(2e4)], most).expect("fewer slices may be shown");
         assert!(fewer.x < 256 && fewer.x > 1, "{fewer}");
@@ -294,7 +295,7 @@ mod tests {
             heights: [Vec3::Z; 3],
             uvs: [Vec2::ZERO, Vec2::X, Vec2::Y],
         };
-        let facets = vec![facet; MAX_SLICES + 1];
-        assert_eq!(limit(&facets, UVec3::splat(2)), Some(UVec3::ONE));
+        let facets = vec![facet; 101];
+        assert_eq!(limit(&facets, UVec3::splat(2), 100), Some(UVec3::ONE));
     }
 }
