@@ -1,4 +1,5 @@
-//! Where it fails: crowns that intersect. Each is drawn whole, after what is further (§2.3), or in bands, sorted each by itself.
+//! Where it fails: crowns that intersect. Each is drawn whole, after what is further (§2.3), or in bands, sorted each by
+//! itself.
 
 use bevy::prelude::*;
 use bevy_verdure::lab::charts::{Axis, Chart, Series};
@@ -96,8 +97,8 @@ pub fn against_overlap(lab: &mut Lab) -> Result<Chart, String> {
     })
 }
 
-/// The greatest change between two eyes so near to one another that hardly anything changes but which crown, or band, is drawn
-/// first, on a way so many degrees to either side of the line on which both crowns are equally far.
+/// The greatest change between two eyes so near to one another that hardly anything changes but which crown, or band, is
+/// drawn first, on a way so many degrees to either side of the line on which both crowns are equally far.
 fn greatest_change(lab: &mut Lab, places: &[Transform], drawn: &Drawn, way: f32) -> f64 {
     let trees = planted(lab, drawn, places);
     let steps = (way / STEP).round() as i32;

@@ -1,8 +1,10 @@
-//! Crowns that intersect, drawn in bands: slices of a crown that follow one another are an item of the transparent phase, and
-//! each is sorted by where these slices are (`sorting.rs`), among the bands of other crowns and all else that is transparent.
+//! Crowns that intersect, drawn in bands: slices of a crown that follow one another are an item of the transparent phase,
+//! and each is sorted by where these slices are (`sorting.rs`), among the bands of other crowns and all else that is
+//! transparent.
 //!
 //! Drawn whole, one crown is in front of the other, and where they change their order all that both cover changes. In bands,
-//! two that change theirs cover little between them. A crown alone is drawn as it is whole, to the bit: its bands stay in order.
+//! two that change theirs cover little between them. A crown alone is drawn as it is whole, to the bit: its bands stay in
+//! order.
 //!
 //! The crown's own entity draws the furthest band, and children of it the others.
 
@@ -231,8 +233,8 @@ pub(crate) fn follow_crowns(
     }
 }
 
-/// Despawns what drew a band of a crown that is none any more, or that knows nothing of it: clones, and what was taken from its
-/// crown.
+/// Despawns what drew a band of a crown that is none any more, or that knows nothing of it: clones, and what was taken from
+/// its crown.
 pub(crate) fn sweep(
     mut commands: Commands,
     children: Query<(Entity, Option<&ChildOf>), With<BandOfParent>>,

@@ -67,10 +67,12 @@ pub struct CrownSettings {
     pub frames: bool,
 }
 
-/// Marks a [`SlicedCrown`] that may intersect others, as in a dense forest. Where it is blended, and near enough to show more
-/// than one slice of an orientation, it is drawn in bands, far to near, sorted among those of other crowns that are marked, so
-/// that little changes where two of them change their order. The plugin spawns its bands as children; there are as many as
-/// slices of an orientation, up to 16, and each is an item to be sorted.
+/// Marks a [`SlicedCrown`] that may intersect others, as in a dense forest. Where it is blended, and near enough to show
+/// more than one slice of an orientation, it is drawn in bands, far to near, each sorted by itself among those of other
+/// marked crowns and all else that is transparent, so that little changes where two of them change their order.
+///
+/// There is a band for each slice of an orientation (where two levels fade into one another, of both), up to 16. The
+/// furthest is drawn by the crown's own entity, the others by children of it, which the plugin spawns, keeps and despawns.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Reflect)]
 #[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct IntersectingCrown;

@@ -35,8 +35,8 @@ pub(crate) fn band_ranks(ranks: u32) -> u32 {
     ranks.div_ceil(MOST_BANDS).max(1)
 }
 
-/// The slices in bands, far to near, of a crown that shows so many ranks, by their numbers in drawing order. The last has all that
-/// come after, if there are more.
+/// The slices in bands, far to near, of a crown that shows so many ranks, by their numbers in drawing order. The last has
+/// all that come after, if there are more.
 pub(crate) fn bands(
     shape: &SlicingShape,
     slots: usize,
@@ -57,9 +57,9 @@ pub(crate) fn bands(
     })
 }
 
-/// The mesh for some slices, by their numbers in drawing order, of a slicing at a `place` in its set. Its positions are never
-/// drawn: they are corners of a box round the crown, with room to sway, which tells Bevy the crown's bounds and the middle
-/// that it is sorted by.
+/// The mesh for some slices, by their numbers in drawing order, of a slicing at a `place` in its set. Its positions are
+/// never drawn: they are corners of a box round the crown, with room to sway, which tells Bevy the crown's bounds and the
+/// middle that it is sorted by.
 pub(crate) fn crown_mesh(shape: &SlicingShape, slices: Range<u32>, place: u32) -> Mesh {
     let corners = CORNERS as u32;
     let count = slices.len() as u32 * corners;

@@ -25,6 +25,8 @@
 //! from behind in all or in none, a moment after the last of them has come (`gather.rs`), so that a grove of several kinds
 //! of trees is one draw; until then each slicing is a set of its own (`set.rs`). Where a device draws nothing indirectly,
 //! several are drawn in turns.
+//! Bevy sorts by where an item was when it came into view; crowns that move are told it anew, and bands of crowns that may
+//! intersect where they are (`bands.rs`, `sorting.rs`).
 //!
 //! # Where this departs from the paper
 //! * Slices of a rank are drawn in the order of their orientations instead of the secondary before the primary one.
@@ -48,8 +50,8 @@
 //! * Wind moves near slices more than far ones; see [`wind`](crate::wind).
 //!
 //! # What it does not do
-//! Crowns that intersect are sorted whole, or band by band, not slice by slice. Within a few metres slices show where no mesh takes over. Storage
-//! buffers in the vertex stage are required, so WebGL 2 is out.
+//! Crowns that intersect are sorted whole, or band by band, not slice by slice. Within a few metres slices show where no
+//! mesh takes over. Storage buffers in the vertex stage are required, so WebGL 2 is out.
 
 pub mod bake;
 mod bands;

@@ -1,5 +1,5 @@
-//! How crowns are drawn that are near to an eye: with a discrepancy angle taken part by part (`blend/parts.rs`), and in bands
-//! (`bands.rs`) if they may intersect others.
+//! How crowns are drawn that are near to an eye: with a discrepancy angle taken part by part (`blend/parts.rs`), and in
+//! bands (`bands.rs`) if they may intersect others.
 //!
 //! It takes pipelines and meshes of their own, so that crowns further away pay nothing for it; where one takes over from the
 //! other, both draw the same.

@@ -154,8 +154,8 @@ impl CrownInBands {
     }
 }
 
-/// How far a band is moved, as a share of its own depth, from −0.45 to 0.45: less than to its neighbour. So of two crowns alike not all
-/// bands change their order at once.
+/// How far a band is moved, as a share of its own depth, from −0.45 to 0.45: less than to its neighbour. So of two crowns
+/// alike not all bands change their order at once.
 fn chance(seed: u8, band: u32) -> f32 {
     // By steps that spread evenly, over crowns and over bands.
     let step = 0.618_034 * f32::from(seed) + 0.754_878 * band as f32;
@@ -217,7 +217,8 @@ mod tests {
 
     #[test]
     fn no_band_jumps_as_another_level_comes_or_goes() {
-        // Bands at both ends of a fade: five and three more to come at the far end, three of which five have gone at the near one.
+        // Bands at both ends of a fade: five and three more to come at the far end, three of which five have gone at the
+        // near one.
         let far = |radii| depths(radii, 8);
         let (alone, begins) = (far(8.99), far(9.01));
         let (ends, coarse) = (far(10.99), far(11.01));

@@ -27,16 +27,16 @@ pub fn levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (usize,
     (level, share)
 }
 
-/// How many slices of each orientation, ranks, are drawn of a crown that is, apparently, so many radii away: those of both levels
-/// where two fade into one another.
+/// How many slices of each orientation, ranks, are drawn of a crown that is, apparently, so many radii away: those of both
+/// levels where two fade into one another.
 pub fn ranks(shape: &SlicingShape, distance: f32, order: SliceOrder) -> u32 {
     let [coarse, fine] = ranks_of_levels(shape, distance, order).1;
     coarse + fine
 }
 
-/// Where the first so many ranks end in a crown that is, apparently, so many radii away: 0 at its far end, 1 at the near one. Where
-/// two levels fade into one another, they come one after the other, each with its share of the way, so that none jumps as it
-/// comes or goes.
+/// Where the first so many ranks end in a crown that is, apparently, so many radii away: 0 at its far end, 1 at the near
+/// one. Where two levels fade into one another, they come one after the other, each with its share of the way, so that none
+/// jumps as it comes or goes.
 pub fn ranks_end(shape: &SlicingShape, distance: f32, order: SliceOrder, ranks: u32) -> f32 {
     let (share, [coarse, fine]) = ranks_of_levels(shape, distance, order);
     // Not so little that ranks come to be in one place.

@@ -15,9 +15,9 @@ fn cells(footprint: f32) -> f32 {
     return exp2(ceil(-log2(max(footprint, 1e-5))));
 }
 
-// The number of the frame for a camera that gathers frames, else 0, so that nothing flickers. Where only some cameras do, they
-// are known by a jittered view: one frame in eight, for which Bevy's jitter is zero, is then drawn as if it were not gathered.
-// Where all do, what lamps see of crowns changes too.
+// The number of the frame for a camera that gathers frames, else 0, so that nothing flickers. Where only some cameras do,
+// they are known by a jittered view: one frame in eight, for which Bevy's jitter is zero, is then drawn as if it were not
+// gathered. Where all do, what lamps see of crowns changes too.
 fn gathered_frame(gathering: u32, clip_from_world: mat4x4<f32>, unjittered: mat4x4<f32>, frame: u32) -> u32 {
     let is_jittered = any(clip_from_world[0] != unjittered[0]) || any(clip_from_world[1] != unjittered[1])
         || any(clip_from_world[2] != unjittered[2]) || any(clip_from_world[3] != unjittered[3]);

@@ -58,8 +58,8 @@ fn crowns_pop_as_they_change_their_order_only_where_they_intersect() {
 
 #[test]
 fn crowns_in_bands_that_intersect_change_little_on_their_whole_way() {
-    // The greatest change between neighbours over the usual one, for eyes that pass one crown before the other: bands change their
-    // order here and there.
+    // The greatest change between neighbours over the usual one, for eyes that pass one crown before the other: bands change
+    // their order here and there.
     let pop = |in_bands: bool| {
         let mut studio = Studio::default();
         let world = studio.world();
