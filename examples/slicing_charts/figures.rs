@@ -11,7 +11,7 @@ use super::accuracy::{SKY, planted, uproot};
 use super::intersecting::pair;
 use super::lab::{Drawn, Lab};
 
-/// Pixels along each side of a picture, of which Figures 5 and 6 have two.
+/// Pixels along each side of a picture, of which there are two but for Figure 3.
 const SIDE: u32 = 224;
 /// Samples along each side of a pixel of meshes.
 const SAMPLES: u32 = 4;

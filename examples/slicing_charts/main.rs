@@ -44,7 +44,7 @@ struct Args {
     /// How many trees, for charts of cost.
     #[arg(long, value_delimiter = ',', value_parser = clap::value_parser!(u32).range(1..=10_000))]
     trees: Vec<u32>,
-    /// Draws the paper's Figures 3, 5 and 6 into this folder instead.
+    /// Draws the paper's Figures 3, 5 and 6, and crowns that intersect, into this folder instead.
     #[arg(long, num_args = 0..=1, default_missing_value = "docs/figures", value_name = "DIR")]
     figures: Option<PathBuf>,
 }

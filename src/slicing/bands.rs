@@ -1,6 +1,7 @@
 //! Crowns that intersect, drawn in bands: slices of a crown that follow one another are an item of the transparent phase,
 //! and each is sorted by where these slices are (`sorting.rs`), among the bands of other crowns and all else that is
-//! transparent.
+//! transparent. While two levels fade into one another, which are in the same place, the coarser one is sorted to the far
+//! end of the crown, as it is drawn, by its share.
 //!
 //! Drawn whole, one crown is in front of the other, and where they change their order all that both cover changes. In bands,
 //! two that change theirs cover little between them. A crown alone is drawn as it is whole, to the bit: its bands stay in
@@ -18,10 +19,10 @@ use bevy::mesh::MeshTag;
 use bevy::prelude::*;
 
 use super::blend::SliceOrder;
-use super::component::{CrownSettings, SlicedCrown};
+use super::component::{CrownSettings, IntersectingCrown, SlicedCrown};
 use super::library::CrownLibrary;
 use super::material::SlicedCrownMaterial;
-use super::near::Nearness;
+use super::near::DrawnAs;
 use super::slicing::SlicingShape;
 
 /// The bands of a crown. On the crown, as long as it is drawn in them.
@@ -79,7 +80,9 @@ pub(crate) struct Followed {
     entity: Entity,
     crown: &'static SlicedCrown,
     settings: &'static CrownSettings,
-    nearness: &'static Nearness,
+    drawn_as: &'static DrawnAs,
+    /// Of the furthest band.
+    mesh: &'static mut Mesh3d,
     material: &'static MeshMaterial3d<SlicedCrownMaterial>,
     tag: &'static MeshTag,
     bounds: &'static Aabb,
@@ -164,15 +167,18 @@ fn give<C: Component>(entity: &mut EntityCommands, component: Option<C>) {
     };
 }
 
+/// Crowns that are drawn in bands, may be, or were.
+type MaybeInBands = Or<(With<IntersectingCrown>, With<CrownBands>)>;
+
 /// Spawns the bands of crowns that are drawn in them, lets them follow their crowns, and despawns those of others.
 pub(crate) fn follow_crowns(
     mut commands: Commands,
     library: Res<CrownLibrary>,
-    crowns: Query<Followed>,
+    crowns: Query<Followed, MaybeInBands>,
     parents: Query<&ChildOf, With<BandOfParent>>,
 ) {
     for mut crown in crowns {
-        if !crown.nearness.is_in_bands() {
+        if !crown.drawn_as.is_in_bands() {
             if let Some(bands) = &crown.bands {
                 bands.despawn(&mut commands);
                 commands.entity(crown.entity).try_remove::<CrownBands>();
@@ -183,7 +189,7 @@ pub(crate) fn follow_crowns(
         let Some(shared) = library.shared.get(&crown.crown.0.id()) else {
             continue;
         };
-        let meshes = shared.known_bands(*crown.nearness);
+        let meshes = shared.known_bands(*crown.drawn_as);
         let Some((_, meshes)) = meshes.split_first() else {
             continue;
         };
@@ -200,6 +206,11 @@ pub(crate) fn follow_crowns(
         });
         if settled {
             continue;
+        }
+        let had_range = crown.bands.as_ref().map(|bands| bands.look.range.is_some());
+        if had_range.is_some_and(|had_range| had_range != crown.range.is_some()) {
+            // Bevy heeds it only where a mesh is new, as those of children are.
+            crown.mesh.set_changed();
         }
         let before = crown.bands.as_deref_mut();
         let mut children =
@@ -227,7 +238,7 @@ pub(crate) fn follow_crowns(
             children,
             shape: shared.shape.clone(),
             order: crown.settings.order,
-            ranks: crown.nearness.ranks,
+            ranks: crown.drawn_as.ranks,
             look,
         });
     }

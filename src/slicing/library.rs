@@ -23,7 +23,7 @@ use super::gather::Placed;
 use super::limits::MAX_LAYERS;
 use super::material::{Gathering, SlicedCrownMaterial};
 use super::mesh::{bands, crown_mesh, most_slices};
-use super::near::Nearness;
+use super::near::DrawnAs;
 use super::set::{CrownSet, SetKind, SetSource};
 use super::slicing::{Slicing, SlicingShape};
 use super::upload::{bounds, data};
@@ -42,7 +42,7 @@ pub(crate) struct Shared {
     /// For crowns far away, and near by.
     meshes: [Handle<Mesh>; 2],
     /// The same in bands, far to near, if any crown was drawn in them.
-    bands: HashMap<Nearness, Vec<Handle<Mesh>>>,
+    bands: HashMap<DrawnAs, Vec<Handle<Mesh>>>,
     pub(crate) shape: Arc<SlicingShape>,
     /// Its place in the set.
     place: u32,
@@ -57,17 +57,17 @@ pub(crate) struct Shared {
 
 impl Shared {
     /// The meshes of bands that have been drawn, far to near.
-    pub(crate) fn known_bands(&self, nearness: Nearness) -> &[Handle<Mesh>] {
-        self.bands.get(&nearness).map_or(&[], |bands| bands)
+    pub(crate) fn known_bands(&self, drawn_as: DrawnAs) -> &[Handle<Mesh>] {
+        self.bands.get(&drawn_as).map_or(&[], |bands| bands)
     }
 
     /// The meshes of bands, far to near.
-    fn bands(&mut self, nearness: Nearness, meshes: &mut Assets<Mesh>) -> &[Handle<Mesh>] {
+    fn bands(&mut self, drawn_as: DrawnAs, meshes: &mut Assets<Mesh>) -> &[Handle<Mesh>] {
         let shape = &self.shape;
         let place = self.place;
-        self.bands.entry(nearness).or_insert_with(|| {
-            let slots = SLOTS_BY_NEARNESS[usize::from(nearness.is_near)];
-            let bands = bands(shape, slots, nearness.ranks);
+        self.bands.entry(drawn_as).or_insert_with(|| {
+            let slots = SLOTS_BY_NEARNESS[usize::from(drawn_as.is_near)];
+            let bands = bands(shape, slots, drawn_as.ranks);
             let mut mesh = |slices| meshes.add(crown_mesh(shape, slices, place));
             bands.map(&mut mesh).collect()
         })
@@ -237,14 +237,14 @@ impl CrownLibrary {
         &mut self,
         id: AssetId<Slicing>,
         settings: &CrownSettings,
-        nearness: Nearness,
+        drawn_as: DrawnAs,
         meshes: &mut Assets<Mesh>,
     ) -> Option<Look> {
         let shared = self.shared.get_mut(&id)?;
         let materials = self.sets.get(&shared.set)?.materials(settings)?;
-        let i = usize::from(nearness.is_near);
-        let mesh = if nearness.is_in_bands() {
-            &shared.bands(nearness, meshes)[0]
+        let i = usize::from(drawn_as.is_near);
+        let mesh = if drawn_as.is_in_bands() {
+            &shared.bands(drawn_as, meshes)[0]
         } else {
             &shared.meshes[i]
         };
@@ -323,10 +323,10 @@ pub(crate) fn attach(
             library.settle_alone(id, slicing, wind, &mut assets);
         }
         library.ensure(id, *settings, wind, &mut assets);
-        let nearness = Nearness::default();
-        if let Some(look) = library.look(id, settings, nearness, &mut assets.meshes) {
+        let drawn_as = DrawnAs::default();
+        if let Some(look) = library.look(id, settings, drawn_as, &mut assets.meshes) {
             let bounds = library.shared[&id].bounds;
-            let drawn = (look, bounds, nearness);
+            let drawn = (look, bounds, drawn_as);
             commands.entity(entity).try_insert(drawn);
         }
     };
@@ -463,7 +463,7 @@ pub(crate) fn uproot(
         bands.despawn(&mut commands);
     }
     if let Ok(mut entity) = commands.get_entity(removed.entity) {
-        entity.try_remove::<(Look, Aabb, Nearness, CrownBands)>();
+        entity.try_remove::<(Look, Aabb, DrawnAs, CrownBands)>();
     }
 }
 

@@ -6,7 +6,7 @@
 
 use bevy::prelude::*;
 
-use super::blend::{PARTS, SliceOrder, ranks};
+use super::blend::{PARTS, Ranks, SliceOrder};
 use super::component::{
     Composition, CrownSettings, DiscrepancyAngle, IntersectingCrown, SlicedCrown,
 };
@@ -16,14 +16,14 @@ use super::material::SlicedCrownMaterial;
 
 /// How a crown is drawn.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub(crate) struct Nearness {
+pub(crate) struct DrawnAs {
     /// Whether the discrepancy angle is taken part by part.
     pub is_near: bool,
     /// How many ranks of slices are drawn at most, if they are drawn in bands; else 0.
     pub ranks: u32,
 }
 
-impl Nearness {
+impl DrawnAs {
     pub(crate) fn is_in_bands(self) -> bool {
         self.ranks > 0
     }
@@ -35,7 +35,7 @@ type Crown<'a> = (
     &'a CrownSettings,
     &'a GlobalTransform,
     Has<IntersectingCrown>,
-    &'a mut Nearness,
+    &'a mut DrawnAs,
     &'a mut Mesh3d,
     &'a mut MeshMaterial3d<SlicedCrownMaterial>,
 );
@@ -49,7 +49,7 @@ pub(crate) fn draw_near(
 ) {
     let active = cameras.iter().filter(|(camera, _)| camera.is_active);
     let eyes: Vec<Eye> = active.map(Eye::of_camera).collect();
-    for (crown, settings, at, intersects, mut nearness, mut mesh, mut material) in &mut crowns {
+    for (crown, settings, at, intersects, mut drawn_as, mut mesh, mut material) in &mut crowns {
         let id = crown.0.id();
         let Some(shared) = library.shared.get(&id) else {
             continue;
@@ -61,29 +61,29 @@ pub(crate) fn draw_near(
         let longest = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.length());
         let radius = shape.radius * longest.into_iter().fold(0.0, f32::max);
         let reach = PARTS[1] * radius;
-        let sees_parts = |eye: &Eye| !eye.is_orthographic && eye.at().distance(centroid) < reach;
+        let sees_parts = |eye: &Eye| !eye.is_orthographic && eye.at.distance(centroid) < reach;
         // A single one is whole.
         let ranks = if intersects && settings.composition == Composition::Blended {
             let shown = |eye: &Eye| {
                 let distance = eye.sees(shape, &affine).distance;
-                ranks(shape, distance, settings.order)
+                Ranks::new(shape, distance, settings.order).count()
             };
             let ranks = eyes.iter().map(shown);
             ranks.max().filter(|ranks| *ranks > 1).unwrap_or(0)
         } else {
             0
         };
-        let now = Nearness {
+        let now = DrawnAs {
             is_near: shared.has_parts
                 && settings.discrepancy == DiscrepancyAngle::PerPart
                 && settings.order == SliceOrder::Steady
                 && eyes.iter().any(sees_parts),
             ranks,
         };
-        if *nearness != now
+        if *drawn_as != now
             && let Some(look) = library.look(id, settings, now, &mut meshes)
         {
-            *nearness = now;
+            *drawn_as = now;
             (*mesh, *material) = look;
         }
     }

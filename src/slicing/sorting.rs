@@ -15,9 +15,9 @@ use bevy::render::sync_world::MainEntity;
 use bevy::render::view::ExtractedView;
 
 use super::bands::CrownBands;
-use super::blend::{SliceOrder, ranks_end, slots};
+use super::blend::{Ranks, SliceOrder, slots};
 use super::component::SlicedCrown;
-use super::eye::{Eye, Seen};
+use super::eye::Eye;
 use super::mesh::band_ranks;
 use super::slicing::SlicingShape;
 
@@ -44,7 +44,13 @@ pub(crate) struct SortedCrowns {
 }
 
 /// What is extracted of a crown in bands.
-type InBands<'w> = (Entity, &'w CrownBands, &'w GlobalTransform, &'w MeshTag);
+type InBands<'w> = (
+    Entity,
+    &'w CrownBands,
+    &'w GlobalTransform,
+    &'w MeshTag,
+    &'w ViewVisibility,
+);
 
 /// What tells that a crown has moved.
 type Moved = (With<SlicedCrown>, Changed<GlobalTransform>);
@@ -64,7 +70,10 @@ pub(crate) fn extract(
         (entity, middle.into())
     });
     crowns.moved.extend(moved);
-    for (entity, bands, place, tag) in &in_bands {
+    for (entity, bands, place, tag, visibility) in &in_bands {
+        if !visibility.get() {
+            continue;
+        }
         let start = crowns.bands.len();
         let all = once(entity).chain(bands.children.iter().copied());
         crowns.bands.extend(all);
@@ -128,38 +137,48 @@ impl CrownInBands {
     /// How far before its centroid each band is for an eye, in metres.
     fn depths(&self, eye: &Eye) -> impl Iterator<Item = f32> {
         let shape = &*self.shape;
-        let Seen {
-            direction,
-            distance,
-        } = eye.sees(shape, &self.world_from_local);
-        // Through the slicing boxes, as much as each orientation shows.
-        let (mut depth, mut weights) = (0.0, 0.0);
-        for slot in slots(shape, direction, self.order) {
+        let seen = eye.sees(shape, &self.world_from_local);
+        // The middle of slicing boxes, and through them, as much as each orientation shows.
+        let (mut middle, mut depth, mut weights) = (0.0, 0.0, 0.0);
+        for slot in slots(shape, seen.direction, self.order) {
             let o = &shape.orientations[slot.orientation as usize];
-            let through = o.direction * (o.high.z - o.low.z);
-            let through = self.world_from_local.transform_vector3(through);
-            depth += slot.weight * through.dot(eye.back()).abs();
+            let along = self.world_from_local.transform_vector3(o.direction);
+            let towards = along.dot(eye.back);
+            // Slices that are seen along themselves have an order too.
+            let towards_at_least = towards.abs().max(LEAST_SLOPE * along.length());
+            middle += slot.weight * towards * 0.5 * (o.low.z + o.high.z);
+            depth += slot.weight * towards_at_least * (o.high.z - o.low.z);
             weights += slot.weight;
         }
-        let depth = depth / weights.max(f32::EPSILON);
+        let scale = 1.0 / weights.max(f32::EPSILON);
+        let (middle, depth) = (middle * scale, depth * scale);
+        let ranks = Ranks::new(shape, seen.distance, self.order);
+        let mut start = 0.0;
         (0..self.bands.len() as u32).map(move |band| {
-            let end = |band: u32| {
-                let ranks = band * self.band_ranks;
-                ranks_end(shape, distance, self.order, ranks)
-            };
-            let (start, end) = (end(band), end(band + 1));
-            let middle = 0.5 * (start + end);
-            (middle - 0.5 + chance(self.seed, band) * (end - start)) * depth
+            let first = band * self.band_ranks;
+            let end = ranks.end(first + self.band_ranks);
+            let at = 0.5 * (start + end) + chance(self.seed, ranks.in_level(first)) * (end - start);
+            start = end;
+            middle + (at - 0.5) * depth
         })
     }
 }
 
-/// How far a band is moved, as a share of its own depth, from −0.45 to 0.45: less than to its neighbour. So of two crowns
-/// alike not all bands change their order at once.
-fn chance(seed: u8, band: u32) -> f32 {
-    // By steps that spread evenly, over crowns and over bands.
-    let step = 0.618_034 * f32::from(seed) + 0.754_878 * band as f32;
-    0.9 * (step.fract() - 0.5)
+/// The least cosine between the view and the normal of slices by which they are sorted.
+const LEAST_SLOPE: f32 = 0.01;
+
+/// How far a band that begins with some rank of its level is moved, as a share of its own depth, from −0.45 to 0.45: less
+/// than to its neighbour. So of two crowns alike not all bands change their order at once.
+fn chance(seed: u8, rank: u32) -> f32 {
+    let bits = mixed(u32::from(seed) << 8 | rank);
+    0.9 * (bits as f32 / u32::MAX as f32 - 0.5)
+}
+
+/// Mixes the bits of a number, as A. Appleby's MurmurHash3 ends.
+fn mixed(number: u32) -> u32 {
+    let number = (number ^ (number >> 16)).wrapping_mul(0x85eb_ca6b);
+    let number = (number ^ (number >> 13)).wrapping_mul(0xc2b2_ae35);
+    number ^ (number >> 16)
 }
 
 #[cfg(test)]
@@ -169,35 +188,39 @@ mod tests {
     use super::*;
     use crate::slicing::tests::leaves;
 
-    /// How far before the centroid bands of a crown are, as seen by an eye so many radii away.
-    fn depths(radii: f32, ranks: u32) -> Vec<f32> {
+    /// A crown of five, three and one slices of an orientation, in as many bands.
+    fn crown(bands: usize) -> CrownInBands {
         let mut shape = leaves(16).shape().clone();
         shape.levels = vec![5, 3, 1];
         shape.switches = vec![10.0, 25.0];
-        let eye = Vec3::new(0.6, 0.0, 0.8) * radii * shape.radius + shape.centroid;
-        let place = Transform::from_translation(eye).looking_at(shape.centroid, Vec3::Y);
-        // 500 pixels for a metre, one metre away.
-        let clip_from_view = Mat4::perspective_infinite_reverse_rh(1.0, 1.0, 0.1);
-        let lines = 1000.0 / clip_from_view.y_axis.y;
-        let eye = Eye::new(
-            place.compute_affine(),
-            &clip_from_view,
-            lines.round() as u32,
-        );
-        let crown = CrownInBands {
+        CrownInBands {
             world_from_local: Affine3A::IDENTITY,
             shape: Arc::new(shape),
             order: SliceOrder::Steady,
-            bands: 0..ranks as usize,
+            bands: 0..bands,
             band_ranks: 1,
             seed: 77,
-        };
+        }
+    }
+
+    /// How far before the centroid its bands are for an eye in a direction, so many radii away.
+    fn depths(crown: &CrownInBands, direction: Vec3, radii: f32) -> Vec<f32> {
+        let shape = &crown.shape;
+        let eye = direction.normalize() * radii * shape.radius + shape.centroid;
+        let place = Transform::from_translation(eye).looking_at(shape.centroid, Vec3::Z);
+        // 500 pixels for a metre, one metre away.
+        let clip_from_view = Mat4::perspective_infinite_reverse_rh(1.0, 1.0, 0.1);
+        let lines = 1000.0 / clip_from_view.y_axis.y;
+        let affine = place.compute_affine();
+        let eye = Eye::new(affine, &clip_from_view, lines.round() as u32);
         crown.depths(&eye).collect()
     }
 
+    const ASLANT: Vec3 = Vec3::new(0.6, 0.0, 0.8);
+
     #[test]
     fn bands_stay_in_order_and_within_their_crown() {
-        let radius = leaves(16).shape().radius;
+        let radius = crown(8).shape.radius;
         for (radii, shown) in [
             (2.0, 5),
             (8.0, 5),
@@ -208,7 +231,7 @@ mod tests {
             (26.0, 4),
             (40.0, 1),
         ] {
-            let depths = depths(radii, 8);
+            let depths = depths(&crown(8), ASLANT, radii);
             assert!(depths.is_sorted_by(|a, b| a < b), "{radii}: {depths:?}");
             let are_within = depths[..shown].iter().all(|depth| depth.abs() <= radius);
             assert!(are_within, "{radii}: {depths:?}");
@@ -216,24 +239,72 @@ mod tests {
     }
 
     #[test]
+    fn bands_are_in_order_where_slices_are_seen_along_themselves_and_where_each_has_several() {
+        for order in [SliceOrder::Steady, SliceOrder::Paper] {
+            let mut shape = (*crown(8).shape).clone();
+            shape.vertical = false;
+            shape.levels = vec![17, 6];
+            shape.switches = vec![10.0];
+            for (radii, ranks) in [(5.0, 17), (10.0, 23)] {
+                let crown = CrownInBands {
+                    shape: Arc::new(shape.clone()),
+                    order,
+                    band_ranks: band_ranks(ranks),
+                    bands: 0..ranks.div_ceil(band_ranks(ranks)) as usize,
+                    ..crown(8)
+                };
+                for direction in [Vec3::Y, ASLANT] {
+                    let depths = depths(&crown, direction, radii);
+                    assert!(depths.is_sorted_by(|a, b| a < b), "{order:?} {depths:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn no_band_jumps_as_another_level_comes_or_goes() {
-        // Bands at both ends of a fade: five and three more to come at the far end, three of which five have gone at the
-        // near one.
-        let far = |radii| depths(radii, 8);
-        let (alone, begins) = (far(8.99), far(9.01));
-        let (ends, coarse) = (far(10.99), far(11.01));
+        // At both ends of a fade: three more come at the far end, five go at the near one.
+        let at = |radii| depths(&crown(8), ASLANT, radii);
+        let (alone, begins) = (at(8.99), at(9.01));
+        let (ends, coarse) = (at(10.99), at(11.01));
         let size = alone[4] - alone[0];
+        let is_near = |a: f32, b: f32| (a - b).abs() < 0.02 * size;
         for rank in 0..5 {
-            assert!(
-                (alone[rank] - begins[3 + rank]).abs() < 0.3 * size,
-                "{alone:?} {begins:?}"
-            );
+            let (before, after) = (alone[rank], begins[3 + rank]);
+            assert!(is_near(before, after), "{alone:?} {begins:?}");
         }
         for rank in 0..3 {
-            assert!(
-                (ends[rank] - coarse[rank]).abs() < 0.02 * size,
-                "{ends:?} {coarse:?}"
-            );
+            let (before, after) = (ends[rank], coarse[rank]);
+            assert!(is_near(before, after), "{ends:?} {coarse:?}");
         }
+    }
+
+    #[test]
+    fn of_two_crowns_alike_few_bands_change_their_order_at_once() {
+        // Shares of a rank by which crowns are nearer than one another as bands of theirs change their order.
+        let coincide = |a: u8, b: u8| {
+            let pairs = (0..5).flat_map(|i| (0..5).map(move |j| (i, j)));
+            let mut swaps: Vec<f32> = pairs
+                .map(|(i, j)| i as f32 + chance(a, i) - j as f32 - chance(b, j))
+                .collect();
+            swaps.sort_by(f32::total_cmp);
+            // The most within a hundredth of a rank.
+            let within = |first: f32| {
+                let near = swaps
+                    .iter()
+                    .filter(|swap| (first..first + 0.01).contains(*swap));
+                near.count()
+            };
+            swaps.iter().map(|first| within(*first)).max().unwrap_or(0)
+        };
+        let counts: Vec<usize> = (0..=255)
+            .flat_map(|a: u8| [1, 2, 3, 5, 8, 89].map(|step| coincide(a, a.wrapping_add(step))))
+            .collect();
+        // Of 25, all five of a kind if crowns were moved as a whole.
+        let mean = counts.iter().sum::<usize>() as f32 / counts.len() as f32;
+        assert!(
+            mean < 2.5 && counts.iter().all(|count| *count <= 6),
+            "{mean} {counts:?}"
+        );
     }
 }

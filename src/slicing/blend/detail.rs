@@ -27,38 +27,59 @@ pub fn levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (usize,
     (level, share)
 }
 
-/// How many slices of each orientation, ranks, are drawn of a crown that is, apparently, so many radii away: those of both
-/// levels where two fade into one another.
-pub fn ranks(shape: &SlicingShape, distance: f32, order: SliceOrder) -> u32 {
-    let [coarse, fine] = ranks_of_levels(shape, distance, order).1;
-    coarse + fine
+/// The slices of each orientation, ranks, that are drawn of a crown, far to near: those of the coarser level first, where
+/// two fade into one another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ranks {
+    coarse: u32,
+    fine: u32,
+    /// Of the finer level.
+    share: f32,
 }
 
-/// Where the first so many ranks end in a crown that is, apparently, so many radii away: 0 at its far end, 1 at the near
-/// one. Where two levels fade into one another, they come one after the other, each with its share of the way, so that none
-/// jumps as it comes or goes.
-pub fn ranks_end(shape: &SlicingShape, distance: f32, order: SliceOrder, ranks: u32) -> f32 {
-    let (share, [coarse, fine]) = ranks_of_levels(shape, distance, order);
-    // Not so little that ranks come to be in one place.
-    let before = if coarse > 0 {
-        (1.0 - share).clamp(0.01, 0.99)
-    } else {
-        0.0
-    };
-    if ranks < coarse {
-        before * ranks as f32 / coarse as f32
-    } else {
-        before + (1.0 - before) * (ranks - coarse) as f32 / fine as f32
+impl Ranks {
+    /// Those of a crown that is, apparently, so many radii away.
+    pub fn new(shape: &SlicingShape, distance: f32, order: SliceOrder) -> Self {
+        let (level, share) = levels(shape, distance, order);
+        let coarse = if share < 1.0 {
+            shape.levels[level + 1]
+        } else {
+            0
+        };
+        Self {
+            coarse,
+            fine: shape.levels[level],
+            share,
+        }
     }
-}
 
-/// The share of the finer level, and the ranks of the coarser and of the finer one, in the order in which they are drawn.
-fn ranks_of_levels(shape: &SlicingShape, distance: f32, order: SliceOrder) -> (f32, [u32; 2]) {
-    let (level, share) = levels(shape, distance, order);
-    let coarse = if share < 1.0 {
-        shape.levels[level + 1]
-    } else {
-        0
-    };
-    (share, [coarse, shape.levels[level]])
+    /// How many there are.
+    pub fn count(self) -> u32 {
+        self.coarse + self.fine
+    }
+
+    /// Where the first so many end in their order: 0 at the far end of it, 1 at the near one, and beyond for more than there
+    /// are. Each of two levels has its share of the way, so that none jumps as the other comes or goes.
+    pub fn end(self, first: u32) -> f32 {
+        let before = if self.coarse > 0 {
+            // Not so little that ranks come to be in one place.
+            (1.0 - self.share).clamp(0.01, 0.99)
+        } else {
+            0.0
+        };
+        if first < self.coarse {
+            before * first as f32 / self.coarse as f32
+        } else {
+            before + (1.0 - before) * (first - self.coarse) as f32 / self.fine as f32
+        }
+    }
+
+    /// Which one of its level a rank is.
+    pub fn in_level(self, rank: u32) -> u32 {
+        if rank < self.coarse {
+            rank
+        } else {
+            rank - self.coarse
+        }
+    }
 }

@@ -14,7 +14,7 @@ mod seen;
 mod weights;
 
 pub use cast::{DENSEST, cast_slices, facing, first_leaf};
-pub use detail::{FOCAL, levels, ranks, ranks_end};
+pub use detail::{FOCAL, Ranks, levels};
 pub use parts::{
     PART_SLOTS, PARTS, deviation, part_direction, part_slots, part_turn, part_weight,
     turned_weight, widest,

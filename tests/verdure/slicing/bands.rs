@@ -226,12 +226,9 @@ fn bands_follow_their_crown() {
                 end_margin: 2.0 * radius..4.0 * radius,
                 use_aabb: false,
             });
-            // Bevy heeds what has come to a mesh when that is another one.
-            crown.get_mut::<Mesh3d>().unwrap().set_changed();
         },
         |crown| {
             crown.remove::<(VisibilityRange, NotShadowCaster, NotShadowReceiver)>();
-            crown.get_mut::<Mesh3d>().unwrap().set_changed();
         },
     ];
     let mut before = near(&mut studio);
@@ -246,7 +243,7 @@ fn bands_follow_their_crown() {
         assert!(in_bands != before, "change {i} is not seen");
         before = in_bands;
     }
-    // Edited while it is in bands, and reloaded into a set with another one.
+    // Edited while it is in bands.
     studio.world().entity_mut(crown).insert(IntersectingCrown);
     near(&mut studio);
     let id = studio.world().get::<SlicedCrown>(crown).unwrap().0.id();
