@@ -22,6 +22,7 @@
 mod draw_functions;
 mod edited_assets;
 pub mod frusta;
+mod give_or_take;
 #[cfg(feature = "lab")]
 pub mod lab;
 pub mod lighting;

@@ -18,12 +18,12 @@ use bevy::light::{NotShadowCaster, NotShadowReceiver, TransmittedShadowReceiver}
 use bevy::mesh::MeshTag;
 use bevy::prelude::*;
 
-use super::blend::SliceOrder;
-use super::component::{CrownSettings, IntersectingCrown, SlicedCrown};
+use super::component::{IntersectingCrown, SlicedCrown};
 use super::library::CrownLibrary;
 use super::material::SlicedCrownMaterial;
 use super::near::DrawnAs;
 use super::slicing::SlicingShape;
+use crate::give_or_take::give_or_take;
 
 /// The bands of a crown. On the crown, as long as it is drawn in them.
 #[derive(Component)]
@@ -31,20 +31,7 @@ pub(crate) struct CrownBands {
     /// What draws all bands but the furthest, far to near.
     pub children: Vec<Entity>,
     pub shape: Arc<SlicingShape>,
-    pub order: SliceOrder,
-    /// How many ranks of slices there are at most, in any view.
-    pub ranks: u32,
     look: BandLook,
-}
-
-impl CrownBands {
-    pub(crate) fn despawn(&self, commands: &mut Commands) {
-        for &child in &self.children {
-            if let Ok(mut child) = commands.get_entity(child) {
-                child.try_despawn();
-            }
-        }
-    }
 }
 
 /// Marks what draws a band of its parent.
@@ -61,17 +48,17 @@ struct BandLook {
     bounds: Aabb,
     layers: Option<RenderLayers>,
     range: Option<VisibilityRange>,
-    marks: Marks,
+    marks: (bool, bool, bool, bool),
 }
 
-/// What marks a crown, and all of its bands.
-#[derive(Clone, Copy, Default, PartialEq, Eq)]
-struct Marks {
-    casts_no_shadows: bool,
-    receives_no_shadows: bool,
-    receives_transmitted_shadows: bool,
-    is_never_culled: bool,
-}
+/// What marks a crown, and all of its bands: that it casts no shadows, receives none, receives transmitted ones, is never
+/// culled.
+type Marks = (
+    Has<NotShadowCaster>,
+    Has<NotShadowReceiver>,
+    Has<TransmittedShadowReceiver>,
+    Has<NoFrustumCulling>,
+);
 
 /// A crown, and what its bands have of it.
 #[derive(QueryData)]
@@ -79,7 +66,6 @@ struct Marks {
 pub(crate) struct Followed {
     entity: Entity,
     crown: &'static SlicedCrown,
-    settings: &'static CrownSettings,
     drawn_as: &'static DrawnAs,
     /// Of the furthest band.
     mesh: &'static mut Mesh3d,
@@ -88,29 +74,13 @@ pub(crate) struct Followed {
     bounds: &'static Aabb,
     layers: Option<&'static RenderLayers>,
     range: Option<&'static VisibilityRange>,
-    marks: (
-        Has<NotShadowCaster>,
-        Has<NotShadowReceiver>,
-        Has<TransmittedShadowReceiver>,
-        Has<NoFrustumCulling>,
-    ),
+    marks: Marks,
     place: &'static GlobalTransform,
     visibility: &'static InheritedVisibility,
     bands: Option<&'static mut CrownBands>,
 }
 
 impl FollowedItem<'_, '_> {
-    fn marks(&self) -> Marks {
-        let (casts_no_shadows, receives_no_shadows, receives_transmitted_shadows, is_never_culled) =
-            self.marks;
-        Marks {
-            casts_no_shadows,
-            receives_no_shadows,
-            receives_transmitted_shadows,
-            is_never_culled,
-        }
-    }
-
     /// Whether bands of these meshes look so.
     fn has(&self, meshes: &[Handle<Mesh>], look: &BandLook) -> bool {
         look.meshes == meshes
@@ -119,7 +89,7 @@ impl FollowedItem<'_, '_> {
             && look.bounds == *self.bounds
             && look.layers.as_ref() == self.layers
             && look.range.as_ref() == self.range
-            && look.marks == self.marks()
+            && look.marks == self.marks
     }
 
     /// How bands of these meshes look.
@@ -131,7 +101,7 @@ impl FollowedItem<'_, '_> {
             bounds: *self.bounds,
             layers: self.layers.cloned(),
             range: self.range.cloned(),
-            marks: self.marks(),
+            marks: self.marks,
         }
     }
 }
@@ -145,32 +115,21 @@ impl BandLook {
             self.tag.clone(),
             self.bounds,
         ));
-        let marks = self.marks;
-        give(child, self.layers.clone());
-        give(child, self.range.clone());
-        give(child, marks.casts_no_shadows.then_some(NotShadowCaster));
-        give(
-            child,
-            marks.receives_no_shadows.then_some(NotShadowReceiver),
-        );
-        let transmitted = marks.receives_transmitted_shadows;
-        give(child, transmitted.then_some(TransmittedShadowReceiver));
-        give(child, marks.is_never_culled.then_some(NoFrustumCulling));
+        let (casts_none, receives_none, receives_transmitted, is_never_culled) = self.marks;
+        give_or_take(child, self.layers.clone());
+        give_or_take(child, self.range.clone());
+        give_or_take(child, casts_none.then_some(NotShadowCaster));
+        give_or_take(child, receives_none.then_some(NotShadowReceiver));
+        let transmitted = receives_transmitted.then_some(TransmittedShadowReceiver);
+        give_or_take(child, transmitted);
+        give_or_take(child, is_never_culled.then_some(NoFrustumCulling));
     }
-}
-
-/// Gives an entity a component, or takes it.
-fn give<C: Component>(entity: &mut EntityCommands, component: Option<C>) {
-    match component {
-        Some(component) => entity.try_insert(component),
-        None => entity.try_remove::<C>(),
-    };
 }
 
 /// Crowns that are drawn in bands, may be, or were.
 type MaybeInBands = Or<(With<IntersectingCrown>, With<CrownBands>)>;
 
-/// Spawns the bands of crowns that are drawn in them, lets them follow their crowns, and despawns those of others.
+/// Spawns the bands of crowns that are drawn in them, and lets them follow their crowns.
 pub(crate) fn follow_crowns(
     mut commands: Commands,
     library: Res<CrownLibrary>,
@@ -179,8 +138,7 @@ pub(crate) fn follow_crowns(
 ) {
     for mut crown in crowns {
         if !crown.drawn_as.is_in_bands() {
-            if let Some(bands) = &crown.bands {
-                bands.despawn(&mut commands);
+            if crown.bands.is_some() {
                 commands.entity(crown.entity).try_remove::<CrownBands>();
             }
             continue;
@@ -201,7 +159,6 @@ pub(crate) fn follow_crowns(
         let settled = crown.bands.as_ref().is_some_and(|bands| {
             crown.has(meshes, &bands.look)
                 && Arc::ptr_eq(&bands.shape, &shared.shape)
-                && bands.order == crown.settings.order
                 && bands.children.iter().all(is_there)
         });
         if settled {
@@ -216,9 +173,7 @@ pub(crate) fn follow_crowns(
         let mut children =
             before.map_or_else(Vec::new, |bands| core::mem::take(&mut bands.children));
         children.retain(is_there);
-        for child in children.drain(meshes.len().min(children.len())..) {
-            commands.entity(child).try_despawn();
-        }
+        children.truncate(meshes.len());
         while children.len() < meshes.len() {
             let child = commands.spawn((
                 BandOfParent,
@@ -237,15 +192,13 @@ pub(crate) fn follow_crowns(
         commands.entity(entity).try_insert(CrownBands {
             children,
             shape: shared.shape.clone(),
-            order: crown.settings.order,
-            ranks: crown.drawn_as.ranks,
             look,
         });
     }
 }
 
-/// Despawns what drew a band of a crown that is none any more, or that knows nothing of it: clones, and what was taken from
-/// its crown.
+/// Despawns what draws a band that no crown knows of: those of crowns that are whole again or have fewer, of clones, and
+/// what was taken from its crown.
 pub(crate) fn sweep(
     mut commands: Commands,
     children: Query<(Entity, Option<&ChildOf>), With<BandOfParent>>,

@@ -429,11 +429,13 @@ pub(crate) fn follow_cameras(
     cameras: Query<(&Camera, Has<TemporalJitter>), With<Camera3d>>,
 ) {
     let active = cameras.iter().filter(|(camera, _)| camera.is_active);
-    let (jittered, steady): (Vec<_>, Vec<_>) = active.partition(|(_, is_jittered)| *is_jittered);
-    let gathering = match (jittered.is_empty(), steady.is_empty()) {
-        (true, _) => Gathering::None,
-        (false, false) => Gathering::Some,
-        (false, true) => Gathering::All,
+    let mut are_jittered = active.map(|(_, is_jittered)| is_jittered);
+    let gathering = if are_jittered.clone().all(|is_jittered| !is_jittered) {
+        Gathering::None
+    } else if are_jittered.all(|is_jittered| is_jittered) {
+        Gathering::All
+    } else {
+        Gathering::Some
     };
     for (_, material) in library.each_material() {
         if let Some(mut material) = materials.get_mut(material)
@@ -454,14 +456,7 @@ pub(crate) fn tint(mut crowns: Query<(Entity, &CrownTint, &mut MeshTag), Changed
 }
 
 /// Stops drawing an entity that is a crown no more.
-pub(crate) fn uproot(
-    removed: On<Remove, SlicedCrown>,
-    in_bands: Query<&CrownBands>,
-    mut commands: Commands,
-) {
-    if let Ok(bands) = in_bands.get(removed.entity) {
-        bands.despawn(&mut commands);
-    }
+pub(crate) fn uproot(removed: On<Remove, SlicedCrown>, mut commands: Commands) {
     if let Ok(mut entity) = commands.get_entity(removed.entity) {
         entity.try_remove::<(Look, Aabb, DrawnAs, CrownBands)>();
     }

@@ -174,7 +174,7 @@ impl Plugin for SlicingPlugin {
             .add_systems(
                 PostUpdate,
                 (
-                    (near::draw_near, bands::sweep, bands::follow_crowns).chain(),
+                    (near::draw_near, bands::follow_crowns, bands::sweep).chain(),
                     library::follow_sun,
                     library::follow_cameras,
                 )

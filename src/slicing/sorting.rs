@@ -16,9 +16,10 @@ use bevy::render::view::ExtractedView;
 
 use super::bands::CrownBands;
 use super::blend::{Ranks, SliceOrder, slots};
-use super::component::SlicedCrown;
+use super::component::{CrownSettings, SlicedCrown};
 use super::eye::Eye;
 use super::mesh::band_ranks;
+use super::near::DrawnAs;
 use super::slicing::SlicingShape;
 
 /// A crown that is drawn in bands in this frame.
@@ -46,7 +47,7 @@ pub(crate) struct SortedCrowns {
 /// What is extracted of a crown in bands.
 type InBands<'w> = (
     Entity,
-    &'w CrownBands,
+    (&'w CrownBands, &'w CrownSettings, &'w DrawnAs),
     &'w GlobalTransform,
     &'w MeshTag,
     &'w ViewVisibility,
@@ -70,7 +71,7 @@ pub(crate) fn extract(
         (entity, middle.into())
     });
     crowns.moved.extend(moved);
-    for (entity, bands, place, tag, visibility) in &in_bands {
+    for (entity, (bands, settings, drawn_as), place, tag, visibility) in &in_bands {
         if !visibility.get() {
             continue;
         }
@@ -81,9 +82,9 @@ pub(crate) fn extract(
         crowns.in_bands.push(CrownInBands {
             world_from_local: place.affine(),
             shape: bands.shape.clone(),
-            order: bands.order,
+            order: settings.order,
             bands: start..crowns.bands.len(),
-            band_ranks: band_ranks(bands.ranks),
+            band_ranks: band_ranks(drawn_as.ranks),
             seed,
         });
     }

@@ -19,9 +19,12 @@ fn cells(footprint: f32) -> f32 {
 // they are known by a jittered view: one frame in eight, for which Bevy's jitter is zero, is then drawn as if it were not
 // gathered. Where all do, what lamps see of crowns changes too.
 fn gathered_frame(gathering: u32, clip_from_world: mat4x4<f32>, unjittered: mat4x4<f32>, frame: u32) -> u32 {
+    if gathering != 1u {
+        return select(0u, frame, gathering == 2u);
+    }
     let is_jittered = any(clip_from_world[0] != unjittered[0]) || any(clip_from_world[1] != unjittered[1])
         || any(clip_from_world[2] != unjittered[2]) || any(clip_from_world[3] != unjittered[3]);
-    return select(0u, frame, gathering == 2u || (gathering == 1u && is_jittered));
+    return select(0u, frame, is_jittered);
 }
 
 fn footprint(uv: vec2<f32>) -> f32 {

@@ -270,13 +270,17 @@ mod tests {
         assert_eq!(beside.range, 5..8);
     }
 
-    #[test]
-    fn texture_coordinates_over_too_many_texels_are_refused_and_many_are_met_by_fewer_slices() {
-        let facet = |across: f32| Facet {
+    /// One whose texture coordinates go over so many texels along u.
+    fn facet(across: f32) -> Facet {
+        Facet {
             positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
             heights: [Vec3::Z; 3],
             uvs: [Vec2::ZERO, Vec2::X * across, Vec2::Y],
-        };
+        }
+    }
+
+    #[test]
+    fn texture_coordinates_over_too_many_texels_are_refused_and_many_are_met_by_fewer_slices() {
         let most = UVec3::splat(256);
         let limit = |facets: &[Facet], most| limit(facets, most, MAX_SLICES);
         assert_eq!(limit(&[facet(1.0)], most), Some(most));
@@ -290,12 +294,7 @@ mod tests {
 
     #[test]
     fn any_mesh_takes_one_slice_a_facet() {
-        let facet = Facet {
-            positions: [Vec3::ZERO, Vec3::X, Vec3::Y],
-            heights: [Vec3::Z; 3],
-            uvs: [Vec2::ZERO, Vec2::X, Vec2::Y],
-        };
-        let facets = vec![facet; 101];
+        let facets = vec![facet(1.0); 101];
         assert_eq!(limit(&facets, UVec3::splat(2), 100), Some(UVec3::ONE));
     }
 }

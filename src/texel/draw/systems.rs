@@ -15,6 +15,7 @@ use super::library::{Drawn, GeometryKey, TexelAssets, TexelKeys, TexelLibrary};
 use super::material::TexelMaterial;
 use super::source::SliceSource;
 use crate::edited_assets::EditedAssets;
+use crate::give_or_take::give_or_take;
 use crate::lighting::SceneLights;
 use crate::wind::Wind;
 
@@ -265,15 +266,10 @@ pub(crate) fn follow_surfaces(
             };
             let mut own = commands.entity(child);
             if layers != own_layers {
-                match layers {
-                    Some(layers) => own.try_insert(layers.clone()),
-                    None => own.try_remove::<RenderLayers>(),
-                };
+                give_or_take(&mut own, layers.cloned());
             }
-            if casts_none && !own_casts_none {
-                own.try_insert(NotShadowCaster);
-            } else if own_casts_none && !casts_none {
-                own.try_remove::<NotShadowCaster>();
+            if casts_none != own_casts_none {
+                give_or_take(&mut own, casts_none.then_some(NotShadowCaster));
             }
         }
     }
